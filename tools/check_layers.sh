@@ -4,11 +4,15 @@
 # The layers and what they may use are the lines ek_layer(LAYER USES ...) of src/CMakeLists.txt and src/lanes/lanes.cmake; a module
 # belongs to the layer whose folder it stands in, a copy ek_x_lanes of a kernel to lanes. Files outside the layers (main.f90, netcdf)
 # may use everything. Two modules of one name are a mistake as well: their .mod files would be installed into one folder.
+#
+# A lock of ek_words that is not given back stops every other thread. So each `call begin_words()` must have its `call end_words()`
+# in the same procedure and the same block, with no `return` between them, and no `cycle` or `exit` of a loop around both.
 # Status 1 if something is wrong.
 set -uo pipefail
 cd "${1:-$(dirname "$0")/..}/src" || exit 1
 
 find . -name '*.[fF]90' | sort | sed 's|^\./||' | awk -v tables='CMakeLists.txt lanes/lanes.cmake' '
+  function complain(at, what) {print "src/" file ":" at ": " what; wrong = 1}
   BEGIN {
     n = split(tables, files, " ")
     for (k = 1; k <= n; k++) while ((getline line < files[k]) > 0)
@@ -37,9 +41,31 @@ find . -name '*.[fF]90' | sort | sed 's|^\./||' | awk -v tables='CMakeLists.txt 
     if (!sub(/\/.*/, "", layer) || !(layer in layers)) layer = "top"
     file = $0
     row = 0
+    begun = 0
     while ((getline line < file) > 0) {
       row++
       line = tolower(line)
+      bare = line
+      gsub(/\047[^\047]*\047|"[^"]*"/, "", bare)
+      sub(/!.*/, "", bare)
+      if (bare ~ /call +(begin|end)_words/) n_words++
+      if (bare ~ /call +begin_words/) {
+        if (begun) complain(begun, "begin_words is called again at line " row " before end_words")
+        if (bare !~ /^ *call/) complain(row, "begin_words is called on a condition")
+        begun = row
+        loops = 0
+        column = index(bare, "call")
+      } else if (bare ~ /call +end_words/) {
+        if (!begun) complain(row, "end_words is called without begin_words")
+        else if (bare !~ /^ *call/ || index(bare, "call") != column) complain(row, "end_words is not in the block of begin_words, line " begun)
+        begun = 0
+      } else if (begun) {
+        if (bare ~ /^ *([a-z_0-9]+ *: *)?do( |$)/) loops++
+        if (bare ~ /^ *end *do/) loops--
+        if (bare ~ /(^|[ );])(return|stop|error +stop)( |$)/) complain(row, "leaves the procedure between begin_words, line " begun ", and end_words")
+        if (bare ~ /(^|[ );])(cycle|exit)( |$)/ && loops == 0) complain(row, "leaves the loop between begin_words, line " begun ", and end_words")
+        if (bare ~ /^ *(end +(subroutine|function)|contains)/) {complain(begun, "begin_words has no end_words"); begun = 0}
+      }
       if (match(line, /^ *module +ek_[a-z0-9_]+ *(!.*)?$/)) {
         split(line, part, " ")
         if (part[2] in place) {print "src/" file ":" row ": module " part[2] " stands in src/" place[part[2]] " too"; wrong = 1}
@@ -66,6 +92,7 @@ find . -name '*.[fF]90' | sort | sed 's|^\./||' | awk -v tables='CMakeLists.txt 
       }
     }
     if (n_uses < 100) {print "only " n_uses " use statements"; wrong = 1}
-    print "check_layers: " n_uses " use statements" (wrong ? "" : ", all point downwards")
+    if (n_words < 20) {print "only " n_words + 0 " calls of begin_words and end_words"; wrong = 1}
+    print "check_layers: " n_uses " use statements" (wrong ? "" : ", all point downwards") ", " n_words " calls of begin_words and end_words"
     exit wrong
   }'

@@ -64,7 +64,8 @@ pages/ek_page.f90 ek_comparison ek_pages
 END
 }
 
-# Every `use` points downwards, and tools/check_layers.sh notices one that does not, an unknown module, and two modules of one name
+# Every `use` points downwards, and tools/check_layers.sh notices one that does not, an unknown module, two modules of one name, and a
+# lock of ek_words that is not given back
 uses_point_downwards() {
   local copy=$logs/uses file module wrong=0
   tools/check_layers.sh || return 1
@@ -83,6 +84,14 @@ uses_point_downwards() {
   done < <(upward_uses)
   noticed main.f90 '0,/^program .*/s//&\n   use ek_unknown/' 'there is no module ek_unknown'
   noticed math/ek_curve.f90 's/^module ek_curve/module ek_rotation/' 'module ek_rotation stands in'
+  local begin='s/^\( *\)call begin_words()/&'
+  noticed api/ek_c_model.f90 "$begin\n\1return/" 'leaves the procedure between begin_words'
+  noticed api/ek_c_model.f90 "$begin\n\1if (is_done) return/" 'leaves the procedure between begin_words'
+  noticed api/ek_c_model.f90 "$begin\n\1exit/" 'leaves the loop between begin_words'
+  noticed api/ek_c_model.f90 '/call begin_words/d' 'end_words is called without begin_words'
+  noticed api/ek_c_model.f90 '/call end_words/d' 'begin_words has no end_words'
+  noticed api/ek_c_model.f90 's/call end_words()/   &/' 'end_words is not in the block of begin_words'
+  noticed api/ek_c_model.f90 's/call begin_words/if (is_done) &/' 'begin_words is called on a condition'
   return $wrong
 }
 

@@ -14,10 +14,10 @@ module ek_named_numbers
    use ek_buffer, only: buffer_t
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable
-   use ek_rig, only: mount_case
    use ek_table, only: table_t, name_length
    use ek_sweep_table, only: observer_t
-   use ek_case_result, only: case_result_t, solve_options_t, solve_mounted, add_remarks
+   use ek_case_result, only: case_result_t, solve_options_t, add_remarks
+   use ek_lone_case, only: solve_anew
    use ek_test_result, only: test_result_t
    use ek_gradient, only: gradient_windows
    use ek_gradient_definition, only: windows_t
@@ -195,12 +195,10 @@ contains
       type(needed_case_t), intent(inout) :: needed
       type(case_t) :: full
 
-      if (.not. allocated(needed%result)) allocate (needed%result, needed%observer)
       full = case
       full%has_all = .true.                  ! as in the report
       if (allocated(needed%read%windows)) full%windows = needed%read%windows
-      call mount_case(suspension, full, needed%result%mounted_case_t)
-      call solve_mounted(needed%options, needed%result, observer=needed%observer)
+      call solve_anew(suspension, full, needed%options, needed%result, needed%observer)
       needed%is_solved = .true.
    end subroutine solve
 

@@ -13,11 +13,12 @@ module ek_check
    use ek_element, only: element_kinds
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, default_tolerance
-   use ek_rig, only: lacks_springs, mounted_case_t
-   use ek_examination, only: add_distinct, examine_case
+   use ek_rig, only: lacks_springs
+   use ek_examination, only: add_distinct
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
    use ek_workspace, only: workspace_t, balance_or_explain
+   use ek_lone_case, only: examine_on_rig
    use ek_reader, only: definition_t
    use ek_standard_tests, only: standard_tests
    use ek_diagnosis, only: diagnosis_t, diagnose
@@ -102,7 +103,7 @@ contains
       class(workspace_t), allocatable :: workspace
       type(definition_t), target :: definition
       type(case_t), allocatable :: chosen(:)
-      type(mounted_case_t) :: mounted
+      type(case_t) :: on_rig
       type(diagnosis_t) :: diagnosis
       type(error_t), allocatable :: trouble
       type(kkt_t) :: kkt
@@ -129,8 +130,8 @@ contains
       call diagnose(workspace%raw, design_state(workspace%raw), kkt, diagnosis)
       call add_model(workspace%raw, diagnosis, checksum, findings)
       do k = 1, size(chosen)
-         call examine_case(workspace%raw, chosen(k), diagnosis, mounted=mounted)
-         call add_case(mounted%case, diagnosis, findings)
+         call examine_on_rig(workspace%raw, chosen(k), diagnosis, on_rig)
+         call add_case(on_rig, diagnosis, findings)
          if (diagnosis%is_solvable()) cycle
          ! the message on one defect may differ in the last digit between two drives
          call add_distinct(found, diagnosis%words())

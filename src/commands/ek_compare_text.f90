@@ -8,7 +8,7 @@ module ek_compare_text
    use ek_file, only: join_path
    use ek_change, only: change_of, verdict_of, letter_of
    use ek_comparison, only: comparison_t, descending, difference, percent
-   use ek_deck_difference, only: deck_difference_t, few_changes, difference_size, step_text
+   use ek_deck_difference, only: deck_difference_t, few_changes, difference_size, given, step_text
    use ek_compare_targets, only: target_lines
    use ek_compare_sentence, only: sentences_of
    use ek_compare_page, only: verdicts
@@ -124,15 +124,6 @@ contains
          if (change%sides /= '') call out%add(', '//change%sides)
          call out%line('')
       end subroutine add_change
-
-      !> A value, or 'not given' for an empty value.
-      pure function given(words) result(text)
-         character(*), intent(in) :: words
-         character(:), allocatable :: text
-
-         text = words
-         if (words == '') text = 'not given'
-      end function given
 
    end subroutine add_changes
 

@@ -11,7 +11,7 @@ module ek_list
    use ek_case, only: case_t, is_mountable
    use ek_suspension, only: suspension_t
    use ek_standard_tests, only: standard_tests
-   use ek_rig, only: mount
+   use ek_lone_case, only: case_on_rig
    use ek_number_names, only: list_numbers
    use ek_workspace, only: workspace_t
    use ek_direction, only: direction_t, all_directions
@@ -168,7 +168,6 @@ contains
       subroutine add_case(given, kind)
          type(case_t), intent(in) :: given
          character(*), intent(in) :: kind
-         type(suspension_t) :: on_rig
          type(case_t) :: case
 
          call known%add(given%name)
@@ -176,7 +175,7 @@ contains
          call cases%cells%add(given%name)
          call cases%cells%add(kind)
          if (is_mountable(given) .and. given%is_good) then
-            call mount(suspension, given, on_rig, case)
+            call case_on_rig(suspension, given, case)
             call cases%cells%add(case%place_name)
             call cases%cells%add(str(case%from/case%unit, 6)//' to '//str(case%to/case%unit, 6))
             call cases%cells%add(trim(merge(case%unit_name, repeat(' ', len(case%unit_name)), case%unit_name /= '-')))

@@ -113,15 +113,10 @@ contains
       call chosen_cases(settings, workspace%raw, cases, chosen, error)
       if (.not. allocated(error)) call examine_chosen(settings%file, workspace%raw, chosen, found, error)
       if (allocated(error)) return
-      page%folder = settings%out
-      box = outbox_in(page%folder)
-      page%is_static = settings%is_static
-      call list_values(deck, page%deck_paths, page%deck_texts)
-      page%axle = kind_of(workspace%raw, page%deck_paths)
-      call make_folder(page%folder, error)
-      if (.not. allocated(error)) call make_folder(join_path(page%folder, 'figures'), error)
+      call begin_content(settings, workspace%raw, deck, page, error)
       if (.not. allocated(error)) call balance_or_explain(default_tolerance, workspace, error)
       if (allocated(error)) return
+      box = outbox_in(page%folder)
       call planned_tests(workspace%suspension, chosen, page%tests)
       call name_files(page%tests)
       call stop_at_windows(settings%windows, page%tests, chosen)
@@ -134,40 +129,12 @@ contains
          files_of_loads, files_of_definitions])
       call remove_parts(workspace%suspension, page%folder)
 
-      if (settings%has_loads) then
-         allocate (page%loads)
-         call begin_loads(workspace%suspension, workspace%suspension%name, checksum, page%loads, chosen)
-      end if
-      if (has_names(chosen)) then
-         allocate (page%parts)
-         call begin_parts(workspace%suspension, workspace%suspension%name, 'elastokin '//version, checksum, page%parts)
-      end if
-      if (line%has('--definitions')) then
-         allocate (page%defined)
-         page%defined%program = line%value('--definitions')
-         page%defined%test = ''
-      end if
-      if (settings%live > 0) then
-         allocate (page%live)
-         page%live%most = settings%live
-      end if
+      call begin_records(settings, line%value('--definitions'), workspace%suspension, chosen, checksum, page)
       call run_tests(settings%windows, workspace%suspension, chosen, found, checksum, page, box, incomplete)
-      if (allocated(page%loads)) then
-         call box%put(loads_file, page%loads%rows%csv())
-         call box%put(peaks_file, peak_loads(page%loads))
-         if (allocated(page%parts)) call put_parts(workspace%suspension, page%parts, box)
-      end if
+      call put_loads(workspace%suspension, page, box)
       call box%take(error)
       if (allocated(error)) return
-      if (allocated(page%live)) then
-         if (.not. allocated(page%live%rates)) call page%warnings%add('--live: no rate can be changed on the page: no test has '// &
-            'a design state at which a bushing, spring or bar with a constant rate contributes to a key compliance')
-      end if
-      if (allocated(page%measured)) then
-         call compare_all_measured(page%tests, page%measured, page%warnings, unmapped)
-         call box%put(measured_file, measured_csv(page%measured))
-         if (allocated(unmapped)) call print_error(unmapped%message)
-      end if
+      call put_measured(page, box, unmapped)
       if (allocated(scales)) call take_scales(scales, page%charts)
       call put_numbers(workspace, checksum, page, box)
       call box%take(error)
@@ -176,17 +143,8 @@ contains
       if (.not. page%is_static) call make_turntable(workspace%suspension, page%tests, page%paths, page%turntable)
       call find_figures(workspace%suspension, page)
       call set_head(settings, workspace%suspension, checksum, page)
-      call box%put(deck_file, deck_csv(page%names, page%values, page%deck_paths, page%deck_texts))
-      call box%take(error)
-      if (.not. allocated(error)) call write_deck_as_used(deck, join_path(page%folder, used_deck_file), error, page%copies)
+      call put_page(settings, workspace%suspension, deck, page, box, error)
       if (allocated(error)) return
-      call box%announce(used_deck_file)
-      call box%put(data_file, report_data(page))
-      call write_page(settings, workspace%suspension, page, box)
-      call box%take(error)
-      if (.not. allocated(error)) call list_report(page, box, settings%is_quiet, error)
-      if (allocated(error)) return
-      call box%announce(page_file)
       call print_verdicts(settings%is_quiet, page)
       if (settings%fails_outside .and. .not. allocated(incomplete)) call fail_outside(page, incomplete)
       call move_alloc(incomplete, error)
@@ -194,6 +152,98 @@ contains
          'measured curves have no column; see the errors above')
       call box%finish(error)
    end subroutine report
+
+   !> Begins the content of a report with the values of the deck, and makes its folders.
+   subroutine begin_content(settings, suspension, deck, page, error)
+      type(settings_t), intent(in) :: settings
+      type(suspension_t), intent(in) :: suspension
+      type(deck_t), intent(in) :: deck
+      type(report_t), intent(inout) :: page
+      type(error_t), allocatable, intent(out) :: error
+
+      page%folder = settings%out
+      page%is_static = settings%is_static
+      call list_values(deck, page%deck_paths, page%deck_texts)
+      page%axle = kind_of(suspension, page%deck_paths)
+      call make_folder(page%folder, error)
+      if (.not. allocated(error)) call make_folder(join_path(page%folder, 'figures'), error)
+   end subroutine begin_content
+
+   !> Begins what a report collects over its tests: loads, parts, and the rates of the live page.
+   subroutine begin_records(settings, definitions, suspension, chosen, checksum, page)
+      type(settings_t), intent(in) :: settings
+      character(*), intent(in) :: definitions           !! other program whose definitions are printed; '': none
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: chosen(:)
+      character(*), intent(in) :: checksum
+      type(report_t), intent(inout) :: page
+
+      if (settings%has_loads) then
+         allocate (page%loads)
+         call begin_loads(suspension, suspension%name, checksum, page%loads, chosen)
+      end if
+      if (has_names(chosen)) then
+         allocate (page%parts)
+         call begin_parts(suspension, suspension%name, 'elastokin '//version, checksum, page%parts)
+      end if
+      if (definitions /= '') then
+         allocate (page%defined)
+         page%defined%program = definitions
+         page%defined%test = ''
+      end if
+      if (settings%live <= 0) return
+      allocate (page%live)
+      page%live%most = settings%live
+   end subroutine begin_records
+
+   !> Writes the loads on the parts, if the report has them.
+   subroutine put_loads(suspension, page, box)
+      type(suspension_t), intent(in) :: suspension
+      type(report_t), intent(in) :: page
+      type(outbox_t), intent(inout) :: box
+
+      if (.not. allocated(page%loads)) return
+      call box%put(loads_file, page%loads%rows%csv())
+      call box%put(peaks_file, peak_loads(page%loads))
+      if (allocated(page%parts)) call put_parts(suspension, page%parts, box)
+   end subroutine put_loads
+
+   !> Compares the measured curves with the tests, and tells what the page lacks.
+   subroutine put_measured(page, box, unmapped)
+      type(report_t), intent(inout) :: page
+      type(outbox_t), intent(inout) :: box
+      type(error_t), allocatable, intent(out) :: unmapped       !! measured curves have no column
+
+      if (allocated(page%live)) then
+         if (.not. allocated(page%live%rates)) call page%warnings%add('--live: no rate can be changed on the page: no test has '// &
+            'a design state at which a bushing, spring or bar with a constant rate contributes to a key compliance')
+      end if
+      if (.not. allocated(page%measured)) return
+      call compare_all_measured(page%tests, page%measured, page%warnings, unmapped)
+      call box%put(measured_file, measured_csv(page%measured))
+      if (allocated(unmapped)) call print_error(unmapped%message)
+   end subroutine put_measured
+
+   !> Writes the deck, the data and the page, and the list of all files.
+   subroutine put_page(settings, suspension, deck, page, box, error)
+      type(settings_t), intent(in) :: settings
+      type(suspension_t), intent(in) :: suspension
+      type(deck_t), intent(in) :: deck
+      type(report_t), intent(inout) :: page
+      type(outbox_t), intent(inout) :: box
+      type(error_t), allocatable, intent(out) :: error
+
+      call box%put(deck_file, deck_csv(page%names, page%values, page%deck_paths, page%deck_texts))
+      call box%take(error)
+      if (.not. allocated(error)) call write_deck_as_used(deck, join_path(page%folder, used_deck_file), error, page%copies)
+      if (allocated(error)) return
+      call box%announce(used_deck_file)
+      call box%put(data_file, report_data(page))
+      call write_page(settings, suspension, page, box)
+      call box%take(error)
+      if (.not. allocated(error)) call list_report(page, box, settings%is_quiet, error)
+      if (.not. allocated(error)) call box%announce(page_file)
+   end subroutine put_page
 
    !> The class and position of the axle, and what the deck gives of the drive and the sprung masses.
    type(axle_kind_t) function kind_of(suspension, given) result(kind)

@@ -4,8 +4,7 @@ module ek_run_columns
    use ek_text, only: quoted, suggestion_by_part, is_like
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable
-   use ek_rig, only: mount
-   use ek_sweep_table, only: sweep_columns
+   use ek_lone_case, only: heads_on_rig
    use ek_target, only: find_column
    use ek_table, only: name_length
    use ek_run_numbers, only: split_names
@@ -26,8 +25,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! exit_usage: all names that match no column
       character(*), intent(in), optional :: option      !! name of the option with the list, for messages; default --columns
       character(*), intent(in), optional :: others(:)   !! further columns that may be named
-      type(suspension_t) :: on_rig
-      type(case_t) :: this
+      type(error_t), allocatable :: absent
       type(message_list_t) :: mistakes
       character(name_length), allocatable :: names(:), heads(:), all(:)
       character(:), allocatable :: given
@@ -42,8 +40,7 @@ contains
       cases%has_all = .true.
       do c = 1, size(cases)
          if (.not. is_mountable(cases(c))) cycle
-         call mount(suspension, cases(c), on_rig, this)
-         call sweep_columns(on_rig, this, heads)
+         call heads_on_rig(suspension, cases(c), heads)
          if (present(others)) heads = [character(name_length) :: heads, others]
          do k = 1, size(names)
             call take(k)

@@ -2,7 +2,7 @@
 module ek_compare_cause
    use ek_text, only: str, plural
    use ek_deck_file, only: deck_record_t
-   use ek_deck_difference, only: deck_difference_t, difference_size, step_text
+   use ek_deck_difference, only: deck_difference_t, difference_size, given, step_text
    use ek_comparison, only: descending
    use ek_report_files, only: results_t, test_number
    implicit none(type, external)
@@ -74,15 +74,6 @@ contains
          text = text//' '//given(value%texts%line(1))//' → '//given(value%texts%line(r))
       end if
    end function step_of
-
-   !> A value, or 'not given'.
-   pure function given(words) result(text)
-      character(*), intent(in) :: words
-      character(:), allocatable :: text
-
-      text = words
-      if (words == '') text = 'not given'
-   end function given
 
    !> The unit of lengths of a deck.
    pure function length_unit(deck) result(unit)

@@ -7,7 +7,7 @@ module ek_deck_difference
    use ek_deck_file, only: deck_record_t
    implicit none(type, external)
    private
-   public :: deck_difference_t, few_changes, find_differences, difference_size, step_text
+   public :: deck_difference_t, few_changes, find_differences, difference_size, given, step_text
 
    integer, parameter :: few_changes = 20     !! a longer list of values that differ is after the results, on pages and terminal
 
@@ -240,5 +240,14 @@ contains
          end if
       end do
    end function are_alike
+
+   !> A value, or 'not given' for an empty value.
+   pure function given(words) result(text)
+      character(*), intent(in) :: words
+      character(:), allocatable :: text
+
+      text = words
+      if (words == '') text = 'not given'
+   end function given
 
 end module ek_deck_difference

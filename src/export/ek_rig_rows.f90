@@ -8,9 +8,8 @@ module ek_rig_rows
    use ek_case, only: case_t, load_table_t, table_column_t
    use ek_state, only: state_t, inputs_t, design_state, unpack_state
    use ek_schedule, only: schedule_t, new_schedule, inputs_at
-   use ek_diagnosis, only: diagnosis_t
-   use ek_examination, only: examine_case
-   use ek_case_result, only: case_result_t, solve_options_t, solve_case, add_remarks
+   use ek_case_result, only: case_result_t, solve_options_t, add_remarks
+   use ek_lone_case, only: solve_sound
    use ek_wheel_motion, only: wheel_motion, lengths, length_choice_t, quantities
    implicit none(type, external)
    private
@@ -59,21 +58,16 @@ contains
       type(error_t), allocatable, intent(out) :: error      !! exit_model, exit_convergence
       type(case_t) :: case
       type(solve_options_t) :: options
-      type(diagnosis_t) :: diagnosis
       character(:), allocatable :: reason
       integer :: row, k
 
       case = rig_case('table', vertical)
       case%file = 'export'
       case%table = table
-      call examine_case(suspension, case, diagnosis)
-      if (.not. diagnosis%is_solvable()) then
-         call fail(error, exit_model, 'the model cannot be solved'//new_line('a')//diagnosis%words())
-         return
-      end if
       allocate (options%columns(0))
       options%is_compared = .false.
-      call solve_case(suspension, case, options, result)
+      call solve_sound(suspension, case, options, result, error)
+      if (allocated(error)) return
       call add_remarks(options, result)
       if (.not. result%is_run()) then
          call fail(error, exit_model, result%remarks%failures())

@@ -1,20 +1,19 @@
-!> The standard charts of a test: one per quantity, in the order of quantities_of. One chart each follows for the motion
+!> The standard charts of a test: one per quantity, in the order of charted (ek_quantity). One chart each follows for the motion
 !> ratios, for springs, dampers and stops, for anti-roll bars, and for bushings and joints. Quantities without a column or
 !> without a value are omitted.
 module ek_test_charts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_text, only: str
-   use ek_rig_test, only: rig_test_t, rig_test, is_scattered, of_tilt, of_roll, of_steer, of_lateral, of_braking, of_traction, &
-      of_aligning, of_vertical, of_table, of_grid
+   use ek_rig_test, only: is_scattered
    use ek_table, only: table_t, name_length, column_index, row_count
    use ek_test_result, only: test_result_t, converged_rows, design_row, wheel_column, has_column, wheel_word
-   use ek_quantity, only: quantity_t, quantity_named, label_of, without_phase, unit_of, unit_text
+   use ek_quantity, only: quantity_t, charted, quantity_named, label_of, without_phase, unit_of, unit_text
    use ek_contact, only: states_in_contact
    use ek_chart, only: chart_t, trace_t, new_chart, add_trace, set_level, both_sides
    implicit none(type, external)
    private
-   public :: test_charts, quantity_chart, ending_chart, bushing_chart, quantities_of
+   public :: test_charts, quantity_chart, ending_chart, bushing_chart
 
    real(wp), parameter :: longest_arm = 20000.0_wp   !! longest swing arm that is drawn [mm]: its length passes through infinity
    real(wp), parameter :: widest_circle = 60.0_wp    !! largest turning circle that is drawn [m]: it is infinite without steering
@@ -34,7 +33,7 @@ contains
       logical, allocatable :: is_in_contact(:)
       integer :: k, used
 
-      allocate (columns, source=quantities_of(test%kind))
+      allocate (columns, source=charted(test%kind))
       call states_in_contact(test%table, is_in_contact)
       allocate (drawn(size(columns) + 4))
       used = 0
@@ -121,51 +120,6 @@ contains
          if (ieee_is_finite(a(k)) .and. ieee_is_finite(b(k))) all_same = all_same .and. abs(a(k) - b(k)) <= tolerance
       end do
    end function all_same
-
-   !> The columns drawn in the charts of a kind of test, in descending order of importance.
-   pure function quantities_of(kind) result(columns)
-      character(*), intent(in) :: kind
-      character(48), allocatable :: columns(:)
-      type(rig_test_t) :: test
-
-      test = rig_test(kind)
-      select case (test%charts)
-      case (of_roll)
-         columns = [character(48) :: 'steer_deg', 'toe_deg', 'camber_deg', 'inclination_deg', 'caster_deg', &
-            'track_change_mm', 'wheelbase_change_mm', 'vertical_force_n', 'roll_moment_nm', 'suspension_roll_rate_nm_per_deg', &
-            'total_roll_rate_nm_per_deg', 'roll_centre_height_mm', 'roll_centre_y_mm', 'roll_steer_deg_per_deg', 'wheel_travel_mm']
-      case (of_steer)
-         columns = [character(48) :: 'steer_deg', 'toe_deg', 'ackermann_percent', 'ackermann_error_deg', 'camber_deg', &
-            'caster_deg', 'kingpin_inclination_deg', 'scrub_radius_mm', 'caster_trail_mm', 'instant_scrub_radius_mm', &
-            'instant_caster_trail_mm', 'steering_ratio', 'turning_circle_m', 'wheel_travel_mm', 'vertical_force_n', &
-            'track_change_mm', 'wheelbase_change_mm', 'steer_camber_deg_per_deg', 'outer_steer_error_deg', 'curb_to_curb_m', &
-            'wall_to_wall_m', 'steering_rack_force_n']
-      case (of_lateral)
-         columns = [character(48) :: 'steer_deg', 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', &
-            'caster_deg', 'wheel_travel_mm', 'vertical_force_n']
-      case (of_aligning)
-         columns = [character(48) :: 'steer_deg', 'toe_deg', 'camber_deg', 'caster_deg', 'track_change_mm', 'wheelbase_change_mm']
-      case (of_braking, of_traction)
-         columns = [character(48) :: 'wheelbase_change_mm', 'wheel_centre_x_mm', 'steer_deg', 'toe_deg', 'caster_deg', &
-            'camber_deg', 'track_change_mm', 'wheel_travel_mm', 'vertical_force_n']
-      case (of_vertical)
-         columns = [character(48) :: 'wheel_travel_mm', 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', &
-            'caster_deg', 'wheel_rate_n_per_mm', 'roll_centre_height_mm', 'scrub_radius_mm', 'caster_trail_mm']
-      case default
-         columns = [character(48) :: 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', 'caster_deg', &
-            'kingpin_inclination_deg', 'vertical_force_n', 'wheel_rate_n_per_mm', 'ride_rate_n_per_mm', 'roll_centre_height_mm', &
-            'scrub_radius_mm', 'caster_trail_mm', 'bump_steer_deg_per_m', 'side_view_arm_angle_deg', &
-            'side_view_arm_length_mm', 'front_view_arm_length_mm', 'anti_dive_percent', 'anti_lift_brake_percent', &
-            'anti_squat_percent', 'anti_lift_drive_percent', 'instant_caster_deg', 'instant_kingpin_inclination_deg', &
-            'instant_scrub_radius_mm', 'instant_caster_trail_mm', 'lateral_in_load_held_deflection_mm_per_kn', &
-            'lateral_in_load_held_steer_deg_per_kn', 'lateral_in_load_held_camber_deg_per_kn', 'side_view_angle_deg', &
-            'recession_gradient_mm_per_m', 'ride_frequency_hz', 'total_track_mm']
-         if (test%charts == of_tilt) columns = [character(48) :: columns(:13), &
-            'suspension_roll_rate_nm_per_deg', 'roll_centre_y_mm']
-         if (kind == 'other') columns = [character(48) :: 'steer_deg', columns]
-         if (any(test%charts == [of_table, of_grid])) columns = [character(48) :: 'wheel_travel_mm', 'steer_deg', columns]
-      end select
-   end function quantities_of
 
    !> A chart of a test, still without curves. States that do not form a path, such as the rows of a load table, are drawn as
    !> points.

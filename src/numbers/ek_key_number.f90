@@ -5,6 +5,7 @@
 module ek_key_number
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
+   use ek_quantity, only: at_design, largest, least, slope, in_phase, anti_phase, at_place, to_contact, largest_of_all
    use ek_table, only: table_t, column_index, name_length, scheduled_rows
    use ek_test_result, only: design_row, unfolded_rows
    use ek_table_reading, only: value_where
@@ -13,12 +14,6 @@ module ek_key_number
    private
    public :: key_number_t, key_source_t, nothing, read_source, has_value, needs_path, needs_all, is_slope
    public :: at_design, largest, least, slope, in_phase, anti_phase, at_place, to_contact, largest_of_all
-
-   !> The source of a key number: a column at design; its maximum or minimum over the test; a gradient, or a gradient with only
-   !> in-phase or only anti-phase loads; a column where another column has a given value; the travel from design to the contact of a
-   !> stop; the largest magnitude over all tests.
-   integer, parameter :: at_design = 0, largest = 1, least = 2, slope = 3, in_phase = 4, anti_phase = 5, at_place = 6, &
-      to_contact = 7, largest_of_all = 8
 
    !> The columns of a key number in the table of one test: first for the left wheel, the single wheel or the axle, then for the
    !> right wheel.

@@ -1,12 +1,12 @@
 !> The key numbers of a report, from all its tests: attitude at design, rates, ride and roll, compliance,
 !> anti-dive, anti-lift, anti-squat, steering. Numbers without a column or test are omitted. Titles, units and signs come from
-!> ek_quantity and ek_gradient_definition.
+!> ek_quantity.
 !> Springs have the motion ratio of each spring on two points and of each spring on a length measure, at design.
 !> The definition of a slope is a sentence, from which its value follows: columns, and the factor on the slope of each wheel.
 module ek_key_numbers
    use ek_kinds, only: wp
    use ek_table, only: column_index
-   use ek_quantity, only: quantity_t, quantity_named, without_phase, unit_of, unit_text
+   use ek_quantity, only: quantity_t, number_t, number_rows, elastic_axis, quantity_named, without_phase, unit_of, unit_text
    use ek_test_result, only: test_result_t
    use ek_gradient, only: gradient_t
    use ek_gradient_definition, only: fitted
@@ -19,76 +19,9 @@ module ek_key_numbers
    private
    public :: key_number_t, key_numbers, list_key_numbers, number_heads, wanted_gradients, without_side, number_name
 
-   character(*), parameter :: ratio_ending = '_motion_ratio', gap_ending = '_gap_mm'
-
-   !> One key number: its group, its column or gradient, and the way in which it is read.
-   type :: entry_t
-      character(32) :: group = ''
-      character(44) :: name = ''        !! name of a column, or of a gradient without the suffix ' (fitted)'
-      character(15) :: kind = ''        !! kind of the test; '': any test that has the column
-      integer :: how = at_design        !! source: at_design to anti_phase of ek_key_number
-      character(38) :: title = ''       !! title of an extreme; '': the title of the column or gradient
-   end type entry_t
+   character(*), parameter :: ratio_ending = '_motion_ratio', gap_ending = '_gap_mm', instant = 'instant'
 
    character(*), parameter :: phases(slope:anti_phase) = [character(12) :: '', ', in phase', ', anti-phase']
-
-   character(*), parameter :: attitude = 'Attitude at design', rates = 'Rates', ride = 'Ride', roll = 'Roll', &
-      comply = 'Compliance', held = 'Compliance at design', elastic = 'Elastic steering axis', &
-      anti = 'Anti-dive, anti-lift, anti-squat', steer = 'Steering', travel = 'parallel_travel', lateral = 'lateral_force', &
-      torque = 'aligning_torque', instant = 'instant'
-
-   type(entry_t), parameter :: entries(*) = [ &
-      entry_t(attitude, 'toe_deg'), entry_t(attitude, 'camber_deg'), entry_t(attitude, 'caster_deg'), &
-      entry_t(attitude, 'kingpin_inclination_deg'), entry_t(attitude, 'scrub_radius_mm'), entry_t(attitude, 'caster_trail_mm'), &
-      entry_t(attitude, 'spindle_length_mm'), entry_t(attitude, 'spindle_offset_mm'), entry_t(attitude, 'instant_caster_deg'), &
-      entry_t(attitude, 'instant_kingpin_inclination_deg'), entry_t(attitude, 'instant_scrub_radius_mm'), &
-      entry_t(attitude, 'instant_caster_trail_mm'), entry_t(attitude, 'centre_axis_distance_mm'), &
-      entry_t(attitude, 'patch_axis_distance_mm'), entry_t(attitude, 'along_spindle_length_mm'), &
-      entry_t(attitude, 'across_spindle_offset_mm'), entry_t(attitude, 'total_track_mm'), entry_t(attitude, 'vertical_force_n'), &
-      entry_t(attitude, 'roll_centre_height_mm'), entry_t(attitude, 'roll_centre_y_mm'), &
-      entry_t(attitude, 'force_roll_centre_height_mm'), entry_t(rates, 'wheel_rate_n_per_mm'), &
-      entry_t(rates, 'wheel rate', travel, slope), entry_t(rates, 'ride_rate_n_per_mm'), entry_t(rates, 'ride_frequency_hz'), &
-      entry_t(rates, 'vertical deflection', 'vertical_force', slope), entry_t(rates, 'suspension_roll_rate_nm_per_deg'), &
-      entry_t(rates, 'total_roll_rate_nm_per_deg'), entry_t(rates, 'hop_rate_n_per_mm'), &
-      entry_t(rates, 'tramp_rate_nm_per_deg'), entry_t(rates, 'fore_aft_stiffness_n_per_mm'), &
-      entry_t(rates, 'lateral_stiffness_n_per_mm'), entry_t(rates, 'vertical_stiffness_n_per_mm'), &
-      entry_t(ride, 'bump steer', travel, slope), entry_t(ride, 'bump toe', travel, slope), &
-      entry_t(ride, 'bump camber', travel, slope), entry_t(ride, 'bump caster', travel, slope), &
-      entry_t(ride, 'half-track change', travel, slope), entry_t(ride, 'wheelbase change', travel, slope), &
-      entry_t(ride, 'roll-centre height change', travel, slope), entry_t(ride, 'recession_gradient_mm_per_m'), &
-      entry_t(ride, 'side_view_arm_length_mm'), entry_t(ride, 'side_view_arm_angle_deg'), &
-      entry_t(ride, 'front_view_arm_length_mm'), entry_t(ride, 'front_view_arm_angle_deg'), &
-      entry_t(roll, 'wheel roll steer', 'roll', slope), entry_t(roll, 'wheel roll camber', 'roll', slope), &
-      entry_t(roll, 'camber relative to road in roll', 'roll', slope), entry_t(roll, 'wheel roll caster', 'roll', slope), &
-      entry_t(roll, 'wheel load in roll', 'roll', slope), entry_t(roll, 'roll rate', 'roll', slope), &
-      entry_t(comply, 'lateral deflection', lateral, in_phase), entry_t(comply, 'lateral force steer', lateral, in_phase), &
-      entry_t(comply, 'lateral force camber', lateral, in_phase), entry_t(comply, 'lateral deflection', lateral, anti_phase), &
-      entry_t(comply, 'lateral force steer', lateral, anti_phase), entry_t(comply, 'lateral force camber', lateral, anti_phase), &
-      entry_t(comply, 'aligning torque steer', torque, in_phase), entry_t(comply, 'aligning torque camber', torque, in_phase), &
-      entry_t(comply, 'aligning torque steer', torque, anti_phase), entry_t(comply, 'braking deflection', 'braking', slope), &
-      entry_t(comply, 'braking steer', 'braking', slope), entry_t(comply, 'braking caster', 'braking', slope), &
-      entry_t(comply, 'traction deflection', 'traction', slope), entry_t(comply, 'traction steer', 'traction', slope), &
-      entry_t(comply, 'traction caster', 'traction', slope), entry_t(held, 'lateral_in_load_held_deflection_mm_per_kn'), &
-      entry_t(held, 'lateral_in_height_held_deflection_mm_per_kn'), entry_t(held, 'lateral_in_load_held_steer_deg_per_kn'), &
-      entry_t(held, 'lateral_in_height_held_steer_deg_per_kn'), entry_t(held, 'lateral_in_load_held_camber_deg_per_kn'), &
-      entry_t(held, 'lateral_in_height_held_camber_deg_per_kn'), entry_t(held, 'aligning_in_load_held_steer_deg_per_100nm'), &
-      entry_t(held, 'aligning_in_height_held_steer_deg_per_100nm'), entry_t(held, 'braking_load_held_deflection_mm_per_kn'), &
-      entry_t(held, 'braking_height_held_deflection_mm_per_kn'), entry_t(held, 'braking_load_held_steer_deg_per_kn'), &
-      entry_t(held, 'braking_height_held_steer_deg_per_kn'), entry_t(held, 'traction_load_held_rotation_y_deg_per_kn'), &
-      entry_t(held, 'lateral_in_jacking_n_per_kn'), entry_t(elastic, 'instant_caster_deg'), &
-      entry_t(elastic, 'instant_kingpin_inclination_deg'), entry_t(elastic, 'instant_scrub_radius_mm'), &
-      entry_t(elastic, 'instant_caster_trail_mm'), entry_t(anti, 'anti_dive_percent'), entry_t(anti, 'anti_lift_drive_percent'), &
-      entry_t(anti, 'anti_lift_brake_percent'), entry_t(anti, 'anti_squat_percent'), entry_t(anti, 'brake_dive_mm_per_g'), &
-      entry_t(anti, 'drive_lift_mm_per_g'), entry_t(anti, 'brake_lift_mm_per_g'), entry_t(anti, 'drive_squat_mm_per_g'), &
-      entry_t(steer, 'steering_ratio'), entry_t(steer, 'steer per steering input', 'steering', slope), &
-      entry_t(steer, 'steer per steering wheel', 'steering', slope), &
-      entry_t(steer, 'steer_deg', 'steering', largest, 'maximum steer to the left'), &
-      entry_t(steer, 'steer_deg', 'steering', least, 'maximum steer to the right'), &
-      entry_t(steer, 'ackermann_percent', 'steering', largest, 'maximum Ackermann'), &
-      entry_t(steer, 'turning_circle_m', 'steering', least, 'minimum turning circle'), &
-      entry_t(steer, 'curb_to_curb_m', 'steering', least, 'minimum turning circle, curb to curb'), &
-      entry_t(steer, 'wall_to_wall_m', 'steering', least, 'minimum turning circle, wall to wall'), &
-      entry_t(steer, 'steer_camber_deg_per_deg'), entry_t(steer, 'steer camber', 'steering', slope)]
 
 contains
 
@@ -181,18 +114,18 @@ contains
       character(*), intent(in), optional :: wanted(:)    !! names without left_ and right_; absent: all
       type(key_number_t) :: number
       type(number_list_t) :: list
-      type(entry_t) :: entry
+      type(number_t) :: entry
       logical :: is_steered, is_pair
       integer :: k
 
       is_steered = any([(column_index(tests(k)%table, 'steering_ratio') > 0, k=1, size(tests))])
       is_pair = any([(size(tests(k)%prefixes) > 1, k=1, size(tests))])
-      do k = 1, size(entries)
-         entry = entries(k)
+      do k = 1, size(number_rows)
+         entry = number_rows(k)
          if (present(wanted)) then
             if (.not. any(wanted == name_of(entry))) cycle
          end if
-         if (index(entry%name, instant) == 1 .and. (entry%group == elastic .eqv. is_steered)) cycle
+         if (index(entry%name, instant) == 1 .and. (entry%group == elastic_axis .eqv. is_steered)) cycle
          if (entry%how >= slope) then
             call from_gradients(tests, gradients, entry, number)
          else
@@ -221,13 +154,13 @@ contains
       integer :: k
 
       allocate (quantities(0))
-      do k = 1, size(entries)
-         if (entries(k)%how < slope .or. entries(k)%kind /= kind) cycle
-         associate (is_this => wanted == name_of(entries(k)))
+      do k = 1, size(number_rows)
+         if (number_rows(k)%how < slope .or. number_rows(k)%kind /= kind) cycle
+         associate (is_this => wanted == name_of(number_rows(k)))
             if (.not. any(is_this)) cycle
             is_gradient = is_gradient .or. is_this
          end associate
-         quantities = [character(64) :: quantities, trim(entries(k)%name)//fitted]
+         quantities = [character(64) :: quantities, trim(number_rows(k)%name)//fitted]
       end do
    end subroutine wanted_gradients
 
@@ -239,14 +172,16 @@ contains
       integer :: k
 
       name = ''
-      do k = 1, size(entries)
-         if (entries(k)%name == source .and. entries(k)%how == merge(slope, at_design, is_slope)) name = name_of(entries(k))
+      do k = 1, size(number_rows)
+         associate (row => number_rows(k))
+            if (row%name == source .and. row%how == merge(slope, at_design, is_slope)) name = name_of(row)
+         end associate
       end do
    end function number_name
 
    !> The name of a key number for programs: 'toe_deg', 'bump_toe', 'lateral_deflection_anti', 'largest_steer_deg'.
    pure character(64) function name_of(entry) result(name)
-      type(entry_t), intent(in) :: entry
+      type(number_t), intent(in) :: entry
       integer :: k, code
 
       name = entry%name
@@ -289,7 +224,7 @@ contains
    subroutine from_gradients(tests, gradients, entry, number)
       type(test_result_t), intent(in) :: tests(:)
       type(gradient_t), intent(in) :: gradients(:)
-      type(entry_t), intent(in) :: entry
+      type(number_t), intent(in) :: entry
       type(key_number_t), intent(out) :: number
       type(key_source_t) :: source
       character(:), allocatable :: column, over, unit, sign
@@ -352,7 +287,7 @@ contains
    !> source.
    subroutine from_tables(tests, entry, is_steered, number)
       type(test_result_t), intent(in) :: tests(:)
-      type(entry_t), intent(in) :: entry
+      type(number_t), intent(in) :: entry
       logical, intent(in) :: is_steered                 !! the instant axis belongs to steering, not to elasticity
       type(key_number_t), intent(out) :: number
       type(quantity_t) :: quantity

@@ -9,7 +9,7 @@ module ek_live
    use ek_live_rates, only: live_rates_t, choose_rates
    use ek_live_state, only: live_state_t, live_columns_t, start_live, find_live_state
    use ek_table, only: name_length, column_index
-   use ek_test_charts, only: quantities_of
+   use ek_quantity, only: charted
    use ek_test_result, only: test_result_t, design_row
    implicit none(type, external)
    private
@@ -72,7 +72,7 @@ contains
             if (any(result%suspension%start == [character(10) :: 'loads', 'wheel_load', 'added_mass'])) live%balance = 'loads'
             call find_test(result, test, rates, of_design, [design_row(result%table)], live%design)
          end if
-         allocate (columns, source=quantities_of(test%kind))
+         allocate (columns, source=charted(test%kind))
          allocate (names(size(columns)))
          do k = 1, size(names)
             names(k) = '*'//columns(k)

@@ -17,12 +17,11 @@ module ek_step_size
    use ek_state, only: state_t, inputs_t, design_state, unpack_state
    use ek_kkt, only: kkt_t, new_kkt, assemble, residual_only
    use ek_path, only: path_t, new_path, walk
-   use ek_rig, only: mount
    use ek_attitude, only: attitude_t, wheel_attitude
    use ek_table, only: new_table, csv_head, csv_row
    use ek_writer, only: writer_t
    use ek_study, only: study_t
-   use ek_workspace, only: workspace_t
+   use ek_workspace, only: workspace_t, mount_numbers
    use ek_workspace_cases, only: open_cases
    implicit none(type, external)
    private
@@ -50,13 +49,17 @@ contains
       type(kkt_t) :: kkt
       type(attitude_t) :: exact, found
       real(wp) :: closure, time, row(size(columns))
-      logical :: is_reached
+      logical :: is_reached, is_done
       integer :: m, k
 
       allocate (workspace)
       call open_cases(deck, [study%case], definition, workspace, error)
       if (allocated(error)) return
-      call mount(workspace%suspension, workspace%cases(1)%case, suspension, case)
+      call mount_numbers(1, workspace%cases(1)%case%tolerance, workspace, is_done)      ! done: the design was examined
+      associate (mounted => workspace%cases(1)%result)
+         suspension = mounted%suspension
+         case = mounted%case
+      end associate
       kkt = new_kkt(suspension)
       if (size(suspension%wheels) == 0) then
          call fail(error, exit_deck, deck%file//': a step-size study needs a wheel, but the deck has none')

@@ -11,11 +11,7 @@ module ek_study_each
    use ek_study, only: study_t, study_factor_t, surplus_factors, by_scale
    use ek_factor_paths, only: is_held_in_plane
    use ek_workspace, only: workspace_t
-   use ek_workspace_cases, only: open_cases
-   use ek_sweep_table, only: sweep_columns
-   use ek_suspension, only: suspension_t
-   use ek_case, only: case_t
-   use ek_rig, only: mount
+   use ek_workspace_cases, only: open_cases, heads_of_case
    use ek_table, only: name_length
    implicit none(type, external)
    private
@@ -67,8 +63,6 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, or as open_cases
       class(workspace_t), allocatable :: workspace
       type(definition_t), target :: definition
-      type(suspension_t) :: suspension
-      type(case_t) :: case
       character(name_length), parameter :: never(3) = [character(name_length) :: 'state', 'factor', 'converged']
       character(name_length), allocatable :: heads(:)
       character(name_length), allocatable :: columns(:)
@@ -79,8 +73,7 @@ contains
       if (.not. any(index(study%columns, '*') > 0)) return
       call open_cases(deck, [study%case], definition, workspace, error)
       if (allocated(error)) return
-      call mount(workspace%suspension, workspace%cases(1)%case, suspension, case)
-      call sweep_columns(suspension, case, heads)
+      call heads_of_case(1, workspace, heads)
       allocate (columns(0))
       do c = 1, size(study%columns)
          if (index(study%columns(c), '*') == 0) then

@@ -1,15 +1,21 @@
-!> The quantities of the results: name, unit, requirements on the model, title, sign, least span of a chart.
+!> The quantities of the results: name, unit, requirements on the model, title, sign, least span of a chart; and below them the
+!> gradients, the key numbers and the charts in which they appear.
 !>
 !> Rows are in the order of the columns in the table of results, section by section. The kernel of a section returns the values in
 !> SI, in the same order: ek_state_columns (wheel_position, steer_axis), ek_kandc_columns (wheel_now to of_rack) with
 !> ek_wheel_columns and ek_geometry_columns. A section is computed as a whole, and only if one of its columns is requested. A new
-!> quantity needs a row here and a value at the same position in the kernel; the unit is the end of the name. Headings, charts, key
-!> numbers and reserved names follow from the row. input/QUANTITIES.md defines the quantities.
+!> quantity needs a row here and a value at the same position in the kernel; the unit is the end of the name (ek_unit_suffix).
+!> Headings, labels and reserved names follow from the row. A gradient, a key number or a chart of the quantity is one more row in
+!> this file. input/QUANTITIES.md defines the quantities.
 module ek_quantity
-   use ek_kinds, only: wp, degree, millimetre
+   use ek_kinds, only: wp
+   use ek_rig_test, only: rig_test_t, rig_test, of_travel, of_tilt, of_roll, of_steer, of_lateral, of_braking, of_traction, &
+      of_aligning, of_vertical, of_table, of_grid
+   use ek_unit_suffix, only: unit_of, unit_text, unit_ending, unit_size, slope_unit, head_with_unit
    implicit none(type, external)
    private
    public :: name_length, quantity_t, quantity_named, needs_rate, held_name, label_of, without_phase, column_of_stem
+   public :: gradient_row_t, number_t, charted
    public :: unit_of, unit_text, unit_ending, unit_size, slope_unit, head_with_unit
 
    integer, parameter :: name_length = 192    !! longest column name: two names of a deck (63 letters each) and their suffixes
@@ -33,7 +39,7 @@ module ek_quantity
    real(wp), parameter :: fine = 0.05_wp, middle = 1.0_wp, wide = 10.0_wp
    character(*), parameter :: inward = '+ top inward', outward = '+ top outward', rearward = '+ top rearward', &
       right = '+ contact point moves with the force', to_left = '+ to the left', under = ' under a force to the right', &
-      in_phase = ', in phase, *', at_centre = 'at the wheel centre', body_down = '+ body moves down', &
+      together = ', in phase, *', at_centre = 'at the wheel centre', body_down = '+ body moves down', &
       body_up = '+ body moves up', shortest = 'shortest distance'
 
    type(quantity_t), parameter, public :: wheel_position(*) = [ &
@@ -100,14 +106,14 @@ module ek_quantity
 
    ! twice: load_held: constant vertical forces; height_held: constant heights of the wheel centres
    type(quantity_t), parameter, public :: wheel_forces(*) = [ &
-      quantity_t('lateral_in_*_deflection_mm_per_kn', soft, 'Lateral deflection'//in_phase, right, 0.02_wp), &
+      quantity_t('lateral_in_*_deflection_mm_per_kn', soft, 'Lateral deflection'//together, right, 0.02_wp), &
       quantity_t('lateral_in_*_centre_deflection_mm_per_kn', soft), &
-      quantity_t('lateral_in_*_steer_deg_per_kn', soft, 'Lateral force steer'//in_phase, to_left//under, 0.002_wp), &
-      quantity_t('lateral_in_*_camber_deg_per_kn', soft, 'Lateral force camber'//in_phase, outward//under, 0.002_wp), &
+      quantity_t('lateral_in_*_steer_deg_per_kn', soft, 'Lateral force steer'//together, to_left//under, 0.002_wp), &
+      quantity_t('lateral_in_*_camber_deg_per_kn', soft, 'Lateral force camber'//together, outward//under, 0.002_wp), &
       quantity_t('lateral_in_trail_*_deflection_mm_per_kn', soft), &
       quantity_t('lateral_in_trail_*_centre_deflection_mm_per_kn', soft), &
       quantity_t('lateral_in_trail_*_steer_deg_per_kn', soft), quantity_t('lateral_in_trail_*_camber_deg_per_kn', soft), &
-      quantity_t('aligning_in_*_steer_deg_per_100nm', soft, 'Aligning torque steer'//in_phase, &
+      quantity_t('aligning_in_*_steer_deg_per_100nm', soft, 'Aligning torque steer'//together, &
       '+ to the left under a torque to the left'), &
       quantity_t('aligning_in_*_camber_deg_per_100nm', soft), &
       quantity_t('lateral_anti_*_deflection_mm_per_kn', both), quantity_t('lateral_anti_*_centre_deflection_mm_per_kn', both), &
@@ -207,26 +213,151 @@ module ek_quantity
       wheel_rates, wheel_bump, wheel_roll, swing_arms, wheel_forces, wheel_jacking, wheel_stiffness, wheel_pitch, axle_rates, &
       axle_now, roll_centres, of_turn, of_steering, wheel_axis, instant_distances, wheel_slopes, axle_geometry, of_rack, of_state]
 
+   ! Where a quantity appears: gradients, key numbers, charts. The order on a page is that of these lists, not that of the columns
+
+   !> Definition of a gradient, for the equation at the top of ek_gradient.
+   type :: gradient_row_t
+      integer :: set                      !! set of tests: of_travel, of_roll, …
+      character(52) :: quantity = ''
+      character(28) :: column = ''
+      character(72) :: sign = ''
+      character(1) :: y_turn = ' '        !! 's': times side (toe → steer); 'd': x of the deck, reported forward;
+      !!                                     'i': outward, reported to the right; 'o': x is mirrored on the right wheel,
+      !!                                     positive towards the side of each wheel
+      character(18) :: over = ''          !! column of x; '': abscissa of the test, or `factor` in units of the case (N, N m, mm)
+   end type gradient_row_t
+
+   character(*), parameter :: in_bump = ' in bump', left_up = ' with the left wheel up', &
+      left_torque = ' under a torque to the left', inner = ', inner wheel', force_up = ' under a force up', &
+      toe_in = '+ front edge moves inward', top_out = '+ top moves outward', top_back = '+ top of the axis moves rearward', &
+      left = '+ steers to the left'
+
+   type(gradient_row_t), parameter, public :: gradient_rows(*) = [ &
+      gradient_row_t(of_travel, 'bump toe', 'toe_deg', toe_in//in_bump), &
+      gradient_row_t(of_travel, 'bump steer', 'toe_deg', left//in_bump, 's'), &
+      gradient_row_t(of_travel, 'bump camber', 'camber_deg', top_out//in_bump), &
+      gradient_row_t(of_travel, 'bump caster', 'caster_deg', top_back//in_bump), &
+      gradient_row_t(of_travel, 'bump caster, instant axis', 'instant_caster_deg', top_back//in_bump), &
+      gradient_row_t(of_travel, 'half-track change', 'track_change_mm', '+ contact point moves outward'//in_bump), &
+      gradient_row_t(of_travel, 'wheelbase change', 'wheelbase_change_mm', '+ contact point moves rearward'//in_bump), &
+      gradient_row_t(of_travel, 'wheel rate', 'vertical_force_n', '+ load increases'//in_bump), &
+      gradient_row_t(of_travel, 'roll-centre height change', 'roll_centre_height_mm', '+ rises over the ground'//in_bump), &
+      ! Per roll of the wheels relative to the body, positive with the left wheel up for both wheels, as the column axle_roll_deg;
+      ! the columns wheel_roll_… of the matrix are the slopes at a state
+      gradient_row_t(of_roll, 'wheel roll steer', 'toe_deg', left//left_up, 's'), &
+      gradient_row_t(of_roll, 'wheel roll toe', 'toe_deg', toe_in//left_up), &
+      gradient_row_t(of_roll, 'wheel roll camber', 'camber_deg', top_out//left_up), &
+      gradient_row_t(of_roll, 'camber relative to road in roll', 'inclination_deg', top_out//' relative to the road'//left_up), &
+      gradient_row_t(of_roll, 'wheel roll caster', 'caster_deg', top_back//left_up), &
+      gradient_row_t(of_roll, 'wheel load in roll', 'vertical_force_n', '+ increases'//left_up), &
+      gradient_row_t(of_roll, 'roll rate', 'roll_moment_nm', '+ restoring'), &
+      gradient_row_t(of_lateral, 'lateral force steer', 'toe_deg', left//under, 's'), &
+      gradient_row_t(of_lateral, 'lateral force camber', 'camber_deg', top_out//under), &
+      gradient_row_t(of_lateral, 'lateral deflection', 'track_change_mm', '+ contact point moves with the force', 'i'), &
+      gradient_row_t(of_aligning, 'aligning torque steer', 'toe_deg', left//left_torque, 's'), &
+      gradient_row_t(of_aligning, 'aligning torque camber', 'camber_deg', top_out//left_torque), &
+      gradient_row_t(of_braking, 'braking deflection', 'wheelbase_change_mm', '+ contact point moves rearward'), &
+      gradient_row_t(of_braking, 'braking camber', 'camber_deg', top_out), &
+      gradient_row_t(of_braking, 'braking steer', 'toe_deg', left, 's'), &
+      gradient_row_t(of_braking, 'braking toe', 'toe_deg', toe_in), &
+      gradient_row_t(of_braking, 'braking caster', 'caster_deg', top_back), &
+      gradient_row_t(of_traction, 'traction deflection', 'wheel_centre_x_mm', '+ wheel centre moves forward', 'd'), &
+      gradient_row_t(of_traction, 'traction camber', 'camber_deg', top_out), &
+      gradient_row_t(of_traction, 'traction steer', 'toe_deg', left, 's'), &
+      gradient_row_t(of_traction, 'traction toe', 'toe_deg', toe_in), &
+      gradient_row_t(of_traction, 'traction caster', 'caster_deg', top_back), &
+      gradient_row_t(of_steer, 'steer per steering wheel', 'toe_deg', '+ to the left', 's', 'steering_wheel_deg'), &
+      gradient_row_t(of_steer, 'steer per steering input', 'toe_deg', '+ to the left', 's'), &
+      gradient_row_t(of_steer, 'steer camber', 'camber_deg', top_out//inner, 'o'), &
+      gradient_row_t(of_steer, 'steer caster', 'caster_deg', '+ top moves rearward'//inner, 'o'), &
+      gradient_row_t(of_steer, 'scrub radius change', 'scrub_radius_mm', '+ increases'//inner, 'o'), &
+      gradient_row_t(of_steer, 'caster trail change', 'caster_trail_mm', '+ increases'//inner, 'o'), &
+      gradient_row_t(of_steer, 'wheel lift in steer', 'wheel_travel_mm', '+ wheel moves up'//inner, 'o'), &
+      gradient_row_t(of_vertical, 'vertical deflection', 'wheel_travel_mm', '+ wheel moves up'//force_up), &
+      gradient_row_t(of_vertical, 'vertical force toe', 'toe_deg', toe_in//force_up), &
+      gradient_row_t(of_vertical, 'vertical force camber', 'camber_deg', top_out//force_up), &
+      gradient_row_t(of_vertical, 'vertical force caster', 'caster_deg', '+ top moves rearward'//force_up)]
+
+   !> The source of a key number: a column at design; its maximum or minimum over the test; a gradient, or a gradient with only
+   !> in-phase or only anti-phase loads; a column where another column has a given value; the travel from design to the contact of a
+   !> stop; the largest magnitude over all tests.
+   integer, parameter, public :: at_design = 0, largest = 1, least = 2, slope = 3, in_phase = 4, anti_phase = 5, at_place = 6, &
+      to_contact = 7, largest_of_all = 8
+
+   !> One key number: its group, its column or gradient, and the way in which it is read.
+   type :: number_t
+      character(32) :: group = ''
+      character(44) :: name = ''        !! name of a column, or of a gradient without the suffix ' (fitted)'
+      character(15) :: kind = ''        !! kind of the test; '': any test that has the column
+      integer :: how = at_design        !! source: at_design to anti_phase of ek_key_number
+      character(38) :: title = ''       !! title of an extreme; '': the title of the column or gradient
+   end type number_t
+
+   character(*), parameter :: attitude = 'Attitude at design', rates = 'Rates', ride = 'Ride', roll = 'Roll', &
+      comply = 'Compliance', held = 'Compliance at design', &
+      anti = 'Anti-dive, anti-lift, anti-squat', steer = 'Steering', travel = 'parallel_travel', lateral = 'lateral_force', &
+      torque = 'aligning_torque'
+   character(*), parameter, public :: elastic_axis = 'Elastic steering axis'
+
+   type(number_t), parameter, public :: number_rows(*) = [ &
+      number_t(attitude, 'toe_deg'), number_t(attitude, 'camber_deg'), number_t(attitude, 'caster_deg'), &
+      number_t(attitude, 'kingpin_inclination_deg'), number_t(attitude, 'scrub_radius_mm'), number_t(attitude, 'caster_trail_mm'), &
+      number_t(attitude, 'spindle_length_mm'), number_t(attitude, 'spindle_offset_mm'), number_t(attitude, 'instant_caster_deg'), &
+      number_t(attitude, 'instant_kingpin_inclination_deg'), number_t(attitude, 'instant_scrub_radius_mm'), &
+      number_t(attitude, 'instant_caster_trail_mm'), number_t(attitude, 'centre_axis_distance_mm'), &
+      number_t(attitude, 'patch_axis_distance_mm'), number_t(attitude, 'along_spindle_length_mm'), &
+      number_t(attitude, 'across_spindle_offset_mm'), number_t(attitude, 'total_track_mm'), &
+      number_t(attitude, 'vertical_force_n'), number_t(attitude, 'roll_centre_height_mm'), number_t(attitude, 'roll_centre_y_mm'), &
+      number_t(attitude, 'force_roll_centre_height_mm'), number_t(rates, 'wheel_rate_n_per_mm'), &
+      number_t(rates, 'wheel rate', travel, slope), number_t(rates, 'ride_rate_n_per_mm'), number_t(rates, 'ride_frequency_hz'), &
+      number_t(rates, 'vertical deflection', 'vertical_force', slope), number_t(rates, 'suspension_roll_rate_nm_per_deg'), &
+      number_t(rates, 'total_roll_rate_nm_per_deg'), number_t(rates, 'hop_rate_n_per_mm'), &
+      number_t(rates, 'tramp_rate_nm_per_deg'), number_t(rates, 'fore_aft_stiffness_n_per_mm'), &
+      number_t(rates, 'lateral_stiffness_n_per_mm'), number_t(rates, 'vertical_stiffness_n_per_mm'), &
+      number_t(ride, 'bump steer', travel, slope), number_t(ride, 'bump toe', travel, slope), &
+      number_t(ride, 'bump camber', travel, slope), number_t(ride, 'bump caster', travel, slope), &
+      number_t(ride, 'half-track change', travel, slope), number_t(ride, 'wheelbase change', travel, slope), &
+      number_t(ride, 'roll-centre height change', travel, slope), number_t(ride, 'recession_gradient_mm_per_m'), &
+      number_t(ride, 'side_view_arm_length_mm'), number_t(ride, 'side_view_arm_angle_deg'), &
+      number_t(ride, 'front_view_arm_length_mm'), number_t(ride, 'front_view_arm_angle_deg'), &
+      number_t(roll, 'wheel roll steer', 'roll', slope), number_t(roll, 'wheel roll camber', 'roll', slope), &
+      number_t(roll, 'camber relative to road in roll', 'roll', slope), number_t(roll, 'wheel roll caster', 'roll', slope), &
+      number_t(roll, 'wheel load in roll', 'roll', slope), number_t(roll, 'roll rate', 'roll', slope), &
+      number_t(comply, 'lateral deflection', lateral, in_phase), number_t(comply, 'lateral force steer', lateral, in_phase), &
+      number_t(comply, 'lateral force camber', lateral, in_phase), number_t(comply, 'lateral deflection', lateral, anti_phase), &
+      number_t(comply, 'lateral force steer', lateral, anti_phase), number_t(comply, 'lateral force camber', lateral, anti_phase), &
+      number_t(comply, 'aligning torque steer', torque, in_phase), number_t(comply, 'aligning torque camber', torque, in_phase), &
+      number_t(comply, 'aligning torque steer', torque, anti_phase), number_t(comply, 'braking deflection', 'braking', slope), &
+      number_t(comply, 'braking steer', 'braking', slope), number_t(comply, 'braking caster', 'braking', slope), &
+      number_t(comply, 'traction deflection', 'traction', slope), number_t(comply, 'traction steer', 'traction', slope), &
+      number_t(comply, 'traction caster', 'traction', slope), number_t(held, 'lateral_in_load_held_deflection_mm_per_kn'), &
+      number_t(held, 'lateral_in_height_held_deflection_mm_per_kn'), number_t(held, 'lateral_in_load_held_steer_deg_per_kn'), &
+      number_t(held, 'lateral_in_height_held_steer_deg_per_kn'), number_t(held, 'lateral_in_load_held_camber_deg_per_kn'), &
+      number_t(held, 'lateral_in_height_held_camber_deg_per_kn'), number_t(held, 'aligning_in_load_held_steer_deg_per_100nm'), &
+      number_t(held, 'aligning_in_height_held_steer_deg_per_100nm'), number_t(held, 'braking_load_held_deflection_mm_per_kn'), &
+      number_t(held, 'braking_height_held_deflection_mm_per_kn'), number_t(held, 'braking_load_held_steer_deg_per_kn'), &
+      number_t(held, 'braking_height_held_steer_deg_per_kn'), number_t(held, 'traction_load_held_rotation_y_deg_per_kn'), &
+      number_t(held, 'lateral_in_jacking_n_per_kn'), number_t(elastic_axis, 'instant_caster_deg'), &
+      number_t(elastic_axis, 'instant_kingpin_inclination_deg'), number_t(elastic_axis, 'instant_scrub_radius_mm'), &
+      number_t(elastic_axis, 'instant_caster_trail_mm'), number_t(anti, 'anti_dive_percent'), &
+      number_t(anti, 'anti_lift_drive_percent'), number_t(anti, 'anti_lift_brake_percent'), number_t(anti, 'anti_squat_percent'), &
+      number_t(anti, 'brake_dive_mm_per_g'), number_t(anti, 'drive_lift_mm_per_g'), &
+      number_t(anti, 'brake_lift_mm_per_g'), number_t(anti, 'drive_squat_mm_per_g'), number_t(steer, 'steering_ratio'), &
+      number_t(steer, 'steer per steering input', 'steering', slope), &
+      number_t(steer, 'steer per steering wheel', 'steering', slope), &
+      number_t(steer, 'steer_deg', 'steering', largest, 'maximum steer to the left'), &
+      number_t(steer, 'steer_deg', 'steering', least, 'maximum steer to the right'), &
+      number_t(steer, 'ackermann_percent', 'steering', largest, 'maximum Ackermann'), &
+      number_t(steer, 'turning_circle_m', 'steering', least, 'minimum turning circle'), &
+      number_t(steer, 'curb_to_curb_m', 'steering', least, 'minimum turning circle, curb to curb'), &
+      number_t(steer, 'wall_to_wall_m', 'steering', least, 'minimum turning circle, wall to wall'), &
+      number_t(steer, 'steer_camber_deg_per_deg'), number_t(steer, 'steer camber', 'steering', slope)]
+
    character(*), parameter :: conditions(2) = [character(11) :: 'load_held', 'height_held']
 
    !> Suffixes of the columns of elements, measures and joints, after the name in the deck.
    character(*), parameter, public :: element_endings(*) = [character(15) :: '_mm', '_deg', '_cosine', '_length_mm', '_force_n', &
       '_angle_deg', '_moment_nm', '_motion_ratio', '_gap_mm', '_travel_left_mm', '_reaction_n', '_reaction_nm', '_fx_n', '_mx_nm']
-
-   !> A unit as the suffix of a column name and as a label, with its SI value.
-   type :: unit_t
-      character(13) :: ending
-      character(12) :: text
-      real(wp) :: size = 1.0_wp
-   end type unit_t
-
-   type(unit_t), parameter :: units(*) = [unit_t('mm', 'mm', millimetre), unit_t('deg', 'deg', degree), unit_t('n', 'N'), &
-      unit_t('nm', 'N m'), unit_t('m', 'm'), unit_t('percent', '%'), unit_t('hz', 'Hz'), unit_t('n_per_mm', 'N/mm', 1.0e3_wp), &
-      unit_t('nm_per_deg', 'N m/deg', 1.0_wp/degree), unit_t('deg_per_m', 'deg/m', degree), unit_t('deg_per_deg', 'deg/deg'), &
-      unit_t('deg_per_kn', 'deg/kN', degree/1.0e3_wp), unit_t('mm_per_kn', 'mm/kN', 1.0e-6_wp), &
-      unit_t('deg_per_100nm', 'deg/100 N m', degree/100.0_wp), unit_t('n_per_kn', 'N/kN', 1.0e-3_wp), &
-      unit_t('mm_per_m', 'mm/m'), unit_t('mm_per_g', 'mm/g', millimetre), unit_t('mm_per_mm', 'mm/mm'), &
-      unit_t('deg_per_mm', 'deg/mm'), unit_t('n_per_deg', 'N/deg')]
 
 contains
 
@@ -249,6 +380,51 @@ contains
       quantity%name = name
       quantity%title = name
    end function quantity_named
+
+   !> The columns drawn in the charts of a kind of test, in descending order of importance.
+   pure function charted(kind) result(columns)
+      character(*), intent(in) :: kind
+      character(48), allocatable :: columns(:)
+      type(rig_test_t) :: test
+
+      test = rig_test(kind)
+      select case (test%charts)
+      case (of_roll)
+         columns = [character(48) :: 'steer_deg', 'toe_deg', 'camber_deg', 'inclination_deg', 'caster_deg', &
+            'track_change_mm', 'wheelbase_change_mm', 'vertical_force_n', 'roll_moment_nm', 'suspension_roll_rate_nm_per_deg', &
+            'total_roll_rate_nm_per_deg', 'roll_centre_height_mm', 'roll_centre_y_mm', 'roll_steer_deg_per_deg', 'wheel_travel_mm']
+      case (of_steer)
+         columns = [character(48) :: 'steer_deg', 'toe_deg', 'ackermann_percent', 'ackermann_error_deg', 'camber_deg', &
+            'caster_deg', 'kingpin_inclination_deg', 'scrub_radius_mm', 'caster_trail_mm', 'instant_scrub_radius_mm', &
+            'instant_caster_trail_mm', 'steering_ratio', 'turning_circle_m', 'wheel_travel_mm', 'vertical_force_n', &
+            'track_change_mm', 'wheelbase_change_mm', 'steer_camber_deg_per_deg', 'outer_steer_error_deg', 'curb_to_curb_m', &
+            'wall_to_wall_m', 'steering_rack_force_n']
+      case (of_lateral)
+         columns = [character(48) :: 'steer_deg', 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', &
+            'caster_deg', 'wheel_travel_mm', 'vertical_force_n']
+      case (of_aligning)
+         columns = [character(48) :: 'steer_deg', 'toe_deg', 'camber_deg', 'caster_deg', 'track_change_mm', 'wheelbase_change_mm']
+      case (of_braking, of_traction)
+         columns = [character(48) :: 'wheelbase_change_mm', 'wheel_centre_x_mm', 'steer_deg', 'toe_deg', 'caster_deg', &
+            'camber_deg', 'track_change_mm', 'wheel_travel_mm', 'vertical_force_n']
+      case (of_vertical)
+         columns = [character(48) :: 'wheel_travel_mm', 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', &
+            'caster_deg', 'wheel_rate_n_per_mm', 'roll_centre_height_mm', 'scrub_radius_mm', 'caster_trail_mm']
+      case default
+         columns = [character(48) :: 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', 'caster_deg', &
+            'kingpin_inclination_deg', 'vertical_force_n', 'wheel_rate_n_per_mm', 'ride_rate_n_per_mm', 'roll_centre_height_mm', &
+            'scrub_radius_mm', 'caster_trail_mm', 'bump_steer_deg_per_m', 'side_view_arm_angle_deg', &
+            'side_view_arm_length_mm', 'front_view_arm_length_mm', 'anti_dive_percent', 'anti_lift_brake_percent', &
+            'anti_squat_percent', 'anti_lift_drive_percent', 'instant_caster_deg', 'instant_kingpin_inclination_deg', &
+            'instant_scrub_radius_mm', 'instant_caster_trail_mm', 'lateral_in_load_held_deflection_mm_per_kn', &
+            'lateral_in_load_held_steer_deg_per_kn', 'lateral_in_load_held_camber_deg_per_kn', 'side_view_angle_deg', &
+            'recession_gradient_mm_per_m', 'ride_frequency_hz', 'total_track_mm']
+         if (test%charts == of_tilt) columns = [character(48) :: columns(:13), &
+            'suspension_roll_rate_nm_per_deg', 'roll_centre_y_mm']
+         if (kind == 'other') columns = [character(48) :: 'steer_deg', columns]
+         if (any(test%charts == [of_table, of_grid])) columns = [character(48) :: 'wheel_travel_mm', 'steer_deg', columns]
+      end select
+   end function charted
 
    !> Whether a column depends on the rates of the springs that carry the wheels.
    pure logical function needs_rate(name)
@@ -297,104 +473,6 @@ contains
          if (at > 0) words = words(:at - 1)//words(at + length:)
       end do
    end function without_phase
-
-   !> The unit at the end of a column name: 'mm', 'n_per_mm'; '' if the name has no unit.
-   pure function unit_of(column) result(unit)
-      character(*), intent(in) :: column
-      character(:), allocatable :: unit
-      integer :: mark
-
-      mark = index(column, '_per_')
-      if (mark > 0) then
-         unit = column(index(column(:mark - 1), '_', back=.true.) + 1:)
-      else
-         unit = column(index(column, '_', back=.true.) + 1:)
-         if (.not. any(units%ending == unit)) unit = ''
-      end if
-   end function unit_of
-
-   !> A unit as a label: 'N/mm' for 'n_per_mm'; '–' for no unit and for an unknown unit.
-   pure function unit_text(unit) result(text)
-      character(*), intent(in) :: unit
-      character(:), allocatable :: text
-      integer :: k
-
-      k = findloc(units%ending, unit, dim=1)
-      text = '–'
-      if (k > 0) text = trim(units(k)%text)
-   end function unit_text
-
-   !> The suffix of the column names that have a unit: 'n_per_mm' for 'N/mm'; '' for an unknown unit.
-   pure function unit_ending(text) result(ending)
-      character(*), intent(in) :: text              !! unit as a label
-      character(:), allocatable :: ending
-      integer :: k
-
-      k = findloc(units%text, text, dim=1)
-      ending = ''
-      if (k > 0) ending = trim(units(k)%ending)
-   end function unit_ending
-
-   !> SI value of the unit of a column. The value is 1 for a column without a known unit, for %, mm/m, deg/deg and mm/mm, and for
-   !> deg/mm and N/deg, which are not converted.
-   pure real(wp) function unit_size(column) result(size_of)
-      character(*), intent(in) :: column
-      integer :: k
-
-      k = findloc(units%ending, unit_of(column), dim=1)
-      size_of = 1.0_wp
-      if (k > 0) size_of = units(k)%size
-   end function unit_size
-
-   !> Finds the unit of a slope as the suffix of a column name, 'deg_per_m', and the factor that converts the slope from the units
-   !> of its two columns. Angles over wheel travel are in deg/m. Slopes over a force are per kN, except slopes of a force. Slopes
-   !> over a moment are per 100 N m, except slopes of a moment. All other slopes have the units of the columns.
-   pure subroutine slope_unit(column, over, factor_unit, unit, factor)
-      character(*), intent(in) :: column, over
-      character(*), intent(in) :: factor_unit             !! unit of the column `factor`: 'mm', 'deg', 'N', 'N m', '-'
-      character(:), allocatable, intent(out) :: unit
-      real(wp), intent(out) :: factor
-      character(:), allocatable :: upper, lower
-      integer :: k
-
-      upper = unit_of(column)
-      lower = unit_of(over)
-      if (over == 'factor') then
-         k = findloc(units%text, factor_unit, dim=1)
-         if (k > 0) lower = trim(units(k)%ending)
-      end if
-      factor = 1.0_wp
-      if (lower == 'mm' .and. upper == 'deg' .and. index(over//' ', trim(wheel_position(1)%name)//' ') > 0) then
-         lower = 'm'
-         factor = 1.0e3_wp
-      else if (lower == 'n' .and. upper /= 'n') then
-         lower = 'kn'
-         factor = 1.0e3_wp
-      else if (lower == 'nm' .and. upper /= 'nm') then
-         lower = '100nm'
-         factor = 100.0_wp
-      else if (lower == '') then
-         lower = over
-      end if
-      unit = 'per_'//lower
-      if (upper /= '') unit = upper//'_'//unit
-   end subroutine slope_unit
-
-   !> A column heading with a unit as suffix: 'seat_mm' for 'seat' and 'mm'. The heading 'seat_mm' is unchanged.
-   pure function head_with_unit(name, ending) result(head)
-      character(*), intent(in) :: name
-      character(*), intent(in) :: ending             !! unit as in column names; '': no unit
-      character(:), allocatable :: head
-      integer :: at
-
-      head = name
-      if (ending == '') return
-      at = len(name) - len(ending)
-      if (at > 0) then
-         if (name(at:) == '_'//ending) return
-      end if
-      head = name//'_'//ending
-   end function head_with_unit
 
    !> The column of a quantity that an element, a measure or a joint with the name `stem` would also have; '' if there is none.
    pure function column_of_stem(stem) result(column)

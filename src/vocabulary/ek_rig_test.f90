@@ -18,7 +18,7 @@
 !> | travel_and_steering | state of a grid | both up; the rack moves, too           | height, driven   |
 !>
 !> In row `roll`, t is the track of the design and φ the roll angle. A new test needs a row here. If the test has charts or
-!> gradients of its own, it also needs a list in ek_test_charts, rows in ek_chart_choice and ek_gradient_definition. The
+!> gradients of its own, it also needs a list in `charted` and gradients in ek_quantity, and rows in ek_chart_choice. The
 !> deck reader, the rig, the standard tests, the usual ranges, the abscissa and the windows follow from the row.
 module ek_rig_test
    use ek_kinds, only: wp, degree, millimetre
