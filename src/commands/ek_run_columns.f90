@@ -79,8 +79,6 @@ contains
       type(suspension_t), intent(in) :: suspension      !! model on no rig
       type(case_t), intent(inout) :: cases(:)
       character(name_length), allocatable, intent(out) :: columns(:)
-      type(suspension_t) :: on_rig
-      type(case_t) :: this
       character(name_length), allocatable :: heads(:)
       integer :: c
 
@@ -88,9 +86,8 @@ contains
       cases%has_all = .true.
       do c = 1, size(cases)
          if (.not. is_mountable(cases(c))) cycle
-         call mount(suspension, cases(c), on_rig, this)
-         call sweep_columns(on_rig, this, heads)
-         call needed_columns(on_rig, heads, program, columns)
+         call heads_on_rig(suspension, cases(c), heads)
+         call needed_columns(suspension, heads, program, columns)
          call take_target(cases(c), heads, columns)
       end do
    end subroutine choose_defined
