@@ -35,8 +35,7 @@ module ek_report
    use ek_assessment, only: axle_kind_t
    use ek_report_content, only: report_t, add_fact
    use ek_report_data, only: report_data
-   use ek_report_measured, only: read_measured, compare_all_measured
-   use ek_measurement, only: measured_csv
+   use ek_report_measured, only: read_measured, put_measured
    use ek_report_page, only: report_page
    use ek_verdict, only: verdict_t, verdict_lines, plain
    use ek_usual_range, only: outside
@@ -134,7 +133,11 @@ contains
       call put_loads(workspace%suspension, page, box)
       call box%take(error)
       if (allocated(error)) return
-      call put_measured(page, box, unmapped)
+      if (allocated(page%live)) then
+         if (.not. allocated(page%live%rates)) call page%warnings%add('--live: no rate can be changed on the page: no test has '// &
+            'a design state at which a bushing, spring or bar with a constant rate contributes to a key compliance')
+      end if
+      if (allocated(page%measured)) call put_measured(page%tests, page%measured, page%warnings, box, unmapped)
       if (allocated(scales)) call take_scales(scales, page%charts)
       call put_numbers(workspace, checksum, page, box)
       call box%take(error)
@@ -207,22 +210,6 @@ contains
       call box%put(peaks_file, peak_loads(page%loads))
       if (allocated(page%parts)) call put_parts(suspension, page%parts, box)
    end subroutine put_loads
-
-   !> Compares the measured curves with the tests, and tells what the page lacks.
-   subroutine put_measured(page, box, unmapped)
-      type(report_t), intent(inout) :: page
-      type(outbox_t), intent(inout) :: box
-      type(error_t), allocatable, intent(out) :: unmapped       !! measured curves have no column
-
-      if (allocated(page%live)) then
-         if (.not. allocated(page%live%rates)) call page%warnings%add('--live: no rate can be changed on the page: no test has '// &
-            'a design state at which a bushing, spring or bar with a constant rate contributes to a key compliance')
-      end if
-      if (.not. allocated(page%measured)) return
-      call compare_all_measured(page%tests, page%measured, page%warnings, unmapped)
-      call box%put(measured_file, measured_csv(page%measured))
-      if (allocated(unmapped)) call print_error(unmapped%message)
-   end subroutine put_measured
 
    !> Writes the deck, the data and the page, and the list of all files.
    subroutine put_page(settings, suspension, deck, page, box, error)

@@ -8,12 +8,15 @@ module ek_report_measured
    use ek_quantity, only: name_length
    use ek_test_result, only: test_result_t
    use ek_grid, only: is_grid
-   use ek_measurement, only: measurement_t, stop_where_measured, compare_measured
+   use ek_measurement, only: measurement_t, stop_where_measured, compare_measured, measured_csv
+   use ek_outbox, only: outbox_t
+   use ek_report_names, only: measured_file
+   use ek_console, only: print_error
    use ek_rig_map, only: map_channel_t, read_map, read_measurement
    use ek_command_line, only: command_line_t
    implicit none(type, external)
    private
-   public :: read_measured, compare_all_measured
+   public :: read_measured, compare_all_measured, put_measured
 
 contains
 
@@ -133,5 +136,18 @@ contains
       end do
       if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
    end subroutine compare_all_measured
+
+   !> Compares the measured curves of a report with its tests, and writes their table.
+   subroutine put_measured(tests, measured, warnings, box, unmapped)
+      type(test_result_t), intent(in) :: tests(:)
+      type(measurement_t), intent(inout) :: measured(:)
+      type(message_list_t), intent(inout) :: warnings
+      type(outbox_t), intent(inout) :: box
+      type(error_t), allocatable, intent(out) :: unmapped       !! as of compare_all_measured; also printed
+
+      call compare_all_measured(tests, measured, warnings, unmapped)
+      call box%put(measured_file, measured_csv(measured))
+      if (allocated(unmapped)) call print_error(unmapped%message)
+   end subroutine put_measured
 
 end module ek_report_measured
