@@ -8,7 +8,8 @@ module ek_defined_table
    use ek_quantity, only: unit_size, of_state
    use ek_formula, only: formula_t, evaluate
    use ek_definition_rows, only: definition_t, definitions
-   use ek_definition, only: rows_of, title_of, own_unit_size, heading, formula_of, is_of_wheel, wheel_numbers, axle_numbers
+   use ek_definition, only: rows_of, title_of, own_unit_size, heading, formula_of, is_of_wheel, axle_numbers, &
+      definitions_mark
    use ek_suspension, only: suspension_t, wheel_t
    use ek_wheel_side, only: prefix_of, deck_frame
    use ek_table, only: table_t, new_table, name_index, name_length
@@ -279,7 +280,7 @@ contains
       character(*), intent(in) :: program
       character(:), allocatable :: line
 
-      line = 'definitions: '//program//' ('//title_of(program)//'). Columns without a known definition are omitted; '// &
+      line = definitions_mark//program//' ('//title_of(program)//'). Columns without a known definition are omitted; '// &
          'elastokin list --definitions '//program//' lists all'
    end function definitions_line
 

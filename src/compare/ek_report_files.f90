@@ -5,6 +5,7 @@ module ek_report_files
    use ek_error, only: error_t, fail, exit_file
    use ek_text, only: str, quoted, lower
    use ek_file, only: join_path, base_name, file_exists, folder_exists
+   use ek_definition, only: definitions_mark
    use ek_table, only: read_csv, name_length
    use ek_decimal, only: get_decimal
    use ek_gnuplot_text, only: one_line
@@ -222,6 +223,11 @@ contains
       do k = 1, test%table%header%count()
          line = test%table%header%line(k)
          call read_frame_line(line, test%is_iso, side)
+         if (index(line, definitions_mark) == 1) then
+            call fail(error, exit_file, path//' is in other '//line(:index(line//')', ')'))// &
+               '; expected columns of elastokin: run without --definitions')
+            return
+         end if
          if (index(line, mark) /= 1 .or. index(line, size_mark) == 0) cycle
          at = index(line, ',')
          test%kind = line(len(mark) + 1:at - 1)

@@ -111,27 +111,43 @@ contains
       text = json%text()
    end function defined_json
 
-   !> Adds the section of the page.
+   !> Adds the section of the page: a row for each quantity of both wheels, of an element or of the axle.
    subroutine add_defined_section(page, numbers)
       type(page_t), intent(inout) :: page
       type(defined_numbers_t), intent(in) :: numbers
-      character(:), allocatable :: words
+      character(:), allocatable :: label, note
+      logical :: is_pair
       integer :: k
 
       call begin_section(page, 'definitions', 'In the definitions of '//title_of(numbers%program), is_printed=.true.)
       call add_text(page, 'p', 'At design, test '//numbers%test//'. All other numbers and charts of this page are in the '// &
          'definitions of elastokin. definitions.csv also has the formulas, and the quantities without a known definition.')
-      call begin_table(page, [character(24) :: 'Quantity', 'Wheel or element', '>Value', 'Unit', 'Positive', 'Difference'])
-      do k = 1, size(numbers%rows)
+      call begin_table(page, [character(24) :: 'Quantity', '>Left', '>Right', '>Value', 'Unit', 'Positive', 'Difference'])
+      k = 0
+      do while (k < size(numbers%rows))
+         k = k + 1
          associate (row => definitions(numbers%rows(k)))
-            words = trim(row%difference)
-            if (row%errs /= '') words = words//'; it errs: '//trim(row%errs)
-            call add_cell(page, trim(row%name))
-            call add_cell(page, trim(numbers%of(k)))
-            call add_cell(page, page_number(numbers%values(k)))
+            is_pair = .false.
+            if (k < size(numbers%rows)) is_pair = numbers%of(k) == 'left' .and. numbers%of(k + 1) == 'right' .and. &
+               numbers%rows(k + 1) == numbers%rows(k)
+            label = trim(row%name)
+            if (numbers%of(k) /= '' .and. .not. is_pair) label = trim(numbers%of(k))//' '//label
+            call add_cell(page, label)
+            if (is_pair) then
+               call add_cell(page, page_number(numbers%values(k)))
+               call add_cell(page, page_number(numbers%values(k + 1)))
+               call add_cell(page, '')
+               k = k + 1
+            else
+               call add_cell(page, '')
+               call add_cell(page, '')
+               call add_cell(page, page_number(numbers%values(k)))
+            end if
+            note = trim(row%difference)
+            if (row%errs /= '') note = note//'; it errs: '//trim(row%errs)
             call add_cell(page, trim(row%unit))
             call add_cell(page, trim(row%positive))
-            call add_cell(page, words)
+            call add_cell(page, note)
          end associate
       end do
       call end_table(page)

@@ -22,6 +22,9 @@ module ek_definition
       own_unit_t('deg/m', degree), own_unit_t('deg/mm', 1.0e3_wp*degree), own_unit_t('mm/kN', 1.0e-6_wp), &
       own_unit_t('deg/100 N m', degree/100.0_wp), own_unit_t('deg/(N mm)', 1.0e3_wp*degree)]
 
+   !> Begin of the header line of a table in the definitions of another program.
+   character(*), parameter, public :: definitions_mark = 'definitions: '
+
    !> Numbers of a wheel that are not columns.
    character(*), parameter, public :: wheel_numbers(*) = [character(13) :: 'side', 'height', 'centre_x', 'centre_y', 'centre_z', &
       'patch_x', 'patch_y', 'patch_z', 'foot_x', 'foot_y', 'foot_z', 'design_toe', 'design_camber']
