@@ -162,7 +162,7 @@ documents() {
     while IFS= read -r -d '' file; do
       case $file in
         *.png | tools/check_language.sh) ;;     # this list names what it forbids
-      src/vocabulary/ek_definition_rows.f90 | input/NAMES.md) ;;     # names in other programs
+        src/vocabulary/ek_definition_rows.f90 | input/NAMES.md) ;;     # names in other programs
         *) printf '%s\0' "$top/$file" ;;
       esac
     done
