@@ -111,7 +111,8 @@ contains
       page%has_data = .not. (page%is_static .or. is_only)
    end subroutine write_as_text
 
-   !> Writes the blocks that follow only as data, or again as text, too. A static page is text to its end.
+   !> Writes the blocks that follow only as data, or again as text, too, within a section that is also text. A static page is text to
+   !> its end.
    pure subroutine write_as_data(page, is_only)
       type(page_t), intent(inout) :: page
       logical, intent(in) :: is_only

@@ -17,9 +17,9 @@ function table_of({ look, caption, heads, table: rows }) {
   const kinds = heads.map((head) => ({ ">": "n", "~": "s" })[head[0]]);
   const heading = (head, k) => kinds[k] ? head.slice(1) : head;
   const name = (head, k) => `<th scope="col"${kinds[k] === "n" ? look_of("n") : ""}>${escaped(heading(head, k))}</th>`;
-  // on a phone a row is a block, in which each cell has its heading
-  const title = (k) => k === 0 || ["Value", "Unit", ""].includes(heading(heads[k], k)) ? "" : ` data-head="${escaped(heading(heads[k], k))}"`;
-  const cell = (own, k) => own.html || `<td${look_of(own.small === true ? "s" : kinds[k])}${title(k)}>${own.bar === undefined ? words_of(own) : bar_of(own.bar)}</td>`;
+  // on a phone a row is a block, in which cells with text have their headings
+  const title = (own, k) => k === 0 || own === "" || own.bar !== undefined || ["Value", "Unit", ""].includes(heading(heads[k], k)) ? "" : ` data-head="${escaped(heading(heads[k], k))}"`;
+  const cell = (own, k) => own.html || `<td${look_of(own.small === true ? "s" : kinds[k])}${title(own, k)}>${own.bar === undefined ? words_of(own) : bar_of(own.bar)}</td>`;
   const row = (cells) => Array.isArray(cells) ? `<tr>${cells.map(cell).join("")}</tr>`
     : `<tr class="group"><th colspan="${heads.length}" scope="colgroup">${escaped(cells)}</th></tr>`;
   return `<div class="scroll" tabindex="0"><table class="wraps${look ? ` ${look}` : ""}">${caption ? `<caption>${escaped(caption)}</caption>` : ""}` +

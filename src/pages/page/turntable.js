@@ -155,11 +155,15 @@ class Turntable {
     pen.strokeStyle = look.getPropertyValue("--paper");
     pen.fillStyle = look.getPropertyValue("--ink");
     pen.lineWidth = 3;
+    const placed = [];
     for (const { label, ...line } of this.lines) {
       if (!label) continue;
-      const [a, b] = this.points_of(line).map(seen), at = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2 - 6];
-      pen.strokeText(label, ...at);
-      pen.fillText(label, ...at);
+      const [a, b] = this.points_of(line).map(seen), x = (a[0] + b[0]) / 2, half = pen.measureText(label).width / 2;
+      let y = (a[1] + b[1]) / 2 - 6;
+      while (placed.some((one) => Math.abs(one.x - x) < one.half + half && Math.abs(one.y - y) < 13)) y += 13;     // below other labels
+      placed.push({ x, y, half });
+      pen.strokeText(label, x, y);
+      pen.fillText(label, x, y);
     }
   }
 }
