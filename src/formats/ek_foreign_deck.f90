@@ -77,11 +77,10 @@ contains
       flaws = new_flaws(path)
       call import_text(content, path, text, kind, flaws, wish)
       if (flaws%count() == 0) return
-      if (kind == table_kind) call fail(error, exit_deck, ten_lines(flaws%text()))
-      if (kind /= table_kind) call fail(error, exit_deck, flaws%text())
+      call fail(error, exit_deck, ten_lines(flaws%text()))
    end subroutine import_file
 
-   !> A text of errors, of which at most ten lines are shown: an error in the form of a table repeats itself in every row.
+   !> A text of errors, of which at most ten lines are shown: an error in the form of a file repeats itself in every line.
    pure function ten_lines(text) result(shown_lines)
       character(*), intent(in) :: text
       character(:), allocatable :: shown_lines

@@ -226,12 +226,20 @@ contains
       if (has_no_number(deck_text)) call give_up('the deck has a number that is none')
    end subroutine judge
 
-   !> Whether a deck has NaN or infinite where a number should be.
+   !> Whether a deck has NaN or infinite where a number should be. Comments, which quote names of the file, are left out.
    logical function has_no_number(text)
       character(*), intent(in) :: text
       character(:), allocatable :: folded
+      integer :: at, next
 
-      folded = lower(text)
+      folded = ''
+      at = 1
+      do while (at <= len(text))
+         next = index(text(at:), new_line('a'))
+         if (next == 0) next = len(text) - at + 2
+         if (text(at:at) /= '!') folded = folded//lower(text(at:at + next - 2))//new_line('a')
+         at = at + next
+      end do
       has_no_number = index(folded, '= nan') > 0 .or. index(folded, ', nan') > 0 .or. index(folded, ',nan') > 0 .or. &
          index(folded, '= inf') > 0 .or. index(folded, ', inf') > 0 .or. index(folded, '-inf') > 0 .or. index(folded, ',inf') > 0
    end function has_no_number
