@@ -198,7 +198,7 @@ contains
       if (allocated(page%parts)) call put_parts(suspension, page%parts, box)
    end subroutine put_loads
 
-   !> Compares the measured curves with the tests, and tells what the page lacks.
+   !> Compares the measured curves with the tests, and adds a warning on a live page without rates.
    subroutine put_measured(page, box, unmapped)
       type(report_t), intent(inout) :: page
       type(outbox_t), intent(inout) :: box
