@@ -12,7 +12,7 @@ set -uo pipefail
 cd "${1:-$(dirname "$0")/..}/src" || exit 1
 
 find . -name '*.[fF]90' | sort | sed 's|^\./||' | awk -v tables='CMakeLists.txt lanes/lanes.cmake' '
-  function complain(at, what) {print "src/" file ":" at ": " what; wrong = 1}
+  function mistake(at, what) {print "src/" file ":" at ": " what; wrong = 1}
   BEGIN {
     n = split(tables, files, " ")
     for (k = 1; k <= n; k++) while ((getline line < files[k]) > 0)
@@ -50,21 +50,21 @@ find . -name '*.[fF]90' | sort | sed 's|^\./||' | awk -v tables='CMakeLists.txt 
       sub(/!.*/, "", bare)
       if (bare ~ /call +(begin|end)_words/) n_words++
       if (bare ~ /call +begin_words/) {
-        if (begun) complain(begun, "begin_words is called again at line " row " before end_words")
-        if (bare !~ /^ *call/) complain(row, "begin_words is called on a condition")
+        if (begun) mistake(begun, "begin_words is called again at line " row " before end_words")
+        if (bare !~ /^ *call/) mistake(row, "begin_words is called on a condition")
         begun = row
         loops = 0
         column = index(bare, "call")
       } else if (bare ~ /call +end_words/) {
-        if (!begun) complain(row, "end_words is called without begin_words")
-        else if (bare !~ /^ *call/ || index(bare, "call") != column) complain(row, "end_words is not in the block of begin_words, line " begun)
+        if (!begun) mistake(row, "end_words is called without begin_words")
+        else if (bare !~ /^ *call/ || index(bare, "call") != column) mistake(row, "end_words is not in the block of begin_words, line " begun)
         begun = 0
       } else if (begun) {
         if (bare ~ /^ *([a-z_0-9]+ *: *)?do( |$)/) loops++
         if (bare ~ /^ *end *do/) loops--
-        if (bare ~ /(^|[ );])(return|stop|error +stop)( |$)/) complain(row, "leaves the procedure between begin_words, line " begun ", and end_words")
-        if (bare ~ /(^|[ );])(cycle|exit)( |$)/ && loops == 0) complain(row, "leaves the loop between begin_words, line " begun ", and end_words")
-        if (bare ~ /^ *(end +(subroutine|function)|contains)/) {complain(begun, "begin_words has no end_words"); begun = 0}
+        if (bare ~ /(^|[ );])(return|stop|error +stop)( |$)/) mistake(row, "leaves the procedure between begin_words, line " begun ", and end_words")
+        if (bare ~ /(^|[ );])(cycle|exit)( |$)/ && loops == 0) mistake(row, "leaves the loop between begin_words, line " begun ", and end_words")
+        if (bare ~ /^ *(end +(subroutine|function)|contains)/) {mistake(begun, "begin_words has no end_words"); begun = 0}
       }
       if (match(line, /^ *module +ek_[a-z0-9_]+ *(!.*)?$/)) {
         split(line, part, " ")
