@@ -19,7 +19,7 @@
  * Counts and positions are of type int. Positions are counted from 0. Strings are UTF-8 and end with '\0'. A returned
  * string belongs to the handle and stays valid until the handle has returned 16 further strings. The string returned
  * by ek_message stays valid until the next call with this handle. Parameters are in the units of the deck.
- * ek_column_unit gives the unit of a result column, ek_number_unit the unit of a key number. The values of
+ * ek_column_unit gives the unit of a result column, ek_number_unit the unit of a K&C metric. The values of
  * ek_compliance are in SI units. A result without a value is NaN. input/QUANTITIES.md defines signs and frames.
  *
  * Compatibility: the names, arguments and meanings of the functions and codes in this file do not change while the
@@ -42,7 +42,7 @@ enum {
   EK_DECK = 2,        /* errors in the deck, or numbers outside their legal ranges; the message lists all errors */
   EK_MODEL = 3,       /* the model cannot be solved: it has a mechanism or redundant constraints, or preload trim
                          (`balance`) has no solution */
-  EK_CONVERGENCE = 4, /* some states did not converge, the model does not define a requested key number, or preload trim
+  EK_CONVERGENCE = 4, /* some states did not converge, the model does not define a requested K&C metric, or preload trim
                          (`balance`) did not converge. If preload trim did not converge, there are no results.
                          ek_solve computes the states from design towards each end of the range. In each direction, the
                          table ends with the first state that is not reached. In its row, `converged` is 0 and the
@@ -50,7 +50,7 @@ enum {
                          the result table contains a row for every state.
                          With method recursive or corrected, `converged` is also 0 for a state that violates the joint
                          constraints; its results are finite.
-                         Key numbers that require a state with `converged` = 0 are NaN. The other rows and key numbers
+                         K&C metrics that require a state with `converged` = 0 are NaN. The other rows and K&C metrics
                          are valid */
   EK_FILE = 5         /* the deck or a load table cannot be read (an included, hardpoint or property file: EK_DECK), or
                          there is not enough memory */
@@ -106,7 +106,7 @@ int ek_model_remarks(ek_model *model, int *count);
 const char *ek_model_remark_text(ek_model *model, int k);
 const char *ek_model_remark_severity(ek_model *model, int k);      /* "note", "warning" or "failure" */
 
-/* ---- parameters: every real number of the deck ----
+/* ---- parameters: every real parameter of the deck ----
  * Integers, for example `increments` of a case, are not in this list. ek_set and ek_set_text set integers; ek_get does
  * not read integers.
  *
@@ -145,7 +145,7 @@ int ek_case_is_of_deck(ek_model *model, int k);     /* 1: defined in the deck; 0
 
 /* ---- solving ----
  * ek_solve solves one case. If name is NULL or "", ek_solve solves the first case of the list. The results stay valid
- * until the next ek_solve: setting or resetting numbers and computing key numbers do not change the results. If
+ * until the next ek_solve: setting or resetting numbers and computing K&C metrics do not change the results. If
  * n_columns is 0, the result table contains all columns. Otherwise the table contains `state`, `factor`, the requested
  * columns in the order of the program's tables, and the columns on convergence (`converged` and those after
  * `converged`). In a requested name, * matches any sequence of characters, also an empty sequence. */
@@ -188,7 +188,7 @@ int ek_body_count(ek_model *model);
 const char *ek_body_name(ek_model *model, int k);   /* NULL outside the list */
 int ek_poses(ek_model *model, int row, int n, double *values);
 
-/* Computes derivatives of columns with respect to numbers of the deck, at one state of the last solution. The unit is
+/* Computes derivatives of columns with respect to parameters of the deck, at one state of the last solution. The unit is
  * the unit of the column per unit of the number. The derivative of the state is exact; each column is differenced
  * along this derivative, and errors gives the estimated error. row is the position of the state in the result table.
  * values contains the n_numbers derivatives of the first column, then the n_numbers derivatives of the second column,
@@ -206,15 +206,15 @@ int ek_poses(ek_model *model, int row, int n, double *values);
 int ek_derivatives(ek_model *model, int row, int n_columns, const char *const *columns, int n_numbers,
                    const char *const *paths, double *values, double *errors);
 
-/* ---- key numbers, as in key_numbers.csv of the report ----
- * ek_numbers computes the key numbers with the given names, and solves only the tests that these key numbers require.
- * The last solution (ek_values) does not change. In a model with two wheels, the name of a key number of one wheel
- * begins with left_ or right_. The name of a key number of the whole axle has no such prefix.
+/* ---- K&C metrics, as in key_numbers.csv of the report ----
+ * ek_numbers computes the K&C metrics with the given names, and solves only the tests that these K&C metrics require.
+ * The last solution (ek_values) does not change. In a model with two wheels, the name of a K&C metric of one wheel
+ * begins with left_ or right_. The name of a K&C metric of the whole axle has no such prefix.
  *
- * If ek_numbers returns EK_CONVERGENCE, the key numbers listed in the message are NaN, and the key numbers not listed
+ * If ek_numbers returns EK_CONVERGENCE, the K&C metrics listed in the message are NaN, and the K&C metrics not listed
  * are valid. The message gives the reason for each: a required state has `converged` = 0, or the model does not define
- * the key number. A key number that is a slope requires only the states inside the window of the slope
- * (input/QUANTITIES.md). If preload trim (`balance`) did not converge, the message lists no key numbers, and all
+ * the K&C metric. A K&C metric that is a slope requires only the states inside the window of the slope
+ * (input/QUANTITIES.md). If preload trim (`balance`) did not converge, the message lists no K&C metrics, and all
  * values are NaN. */
 int ek_numbers(ek_model *model, int n, const char *const *names, double *values);
 int ek_number_count(ek_model *model);               /* count of all names. No case is solved; a listed key

@@ -100,6 +100,10 @@ refus(?:e|es|ed|al|ing)  =>  reject, not supported
 left out|leaves? out  =>  omit
 the turntable  =>  3-D view
 folded|unfold(?:ed)?  =>  collapsed, expanded
+key numbers?  =>  K&C metric
+numbers? of (?:the|a) deck|deck values?  =>  parameter
+(?:load|height|heights|forces?|heave|centres) held|held heights?|driven (?:value|height)s?  =>  constant, prescribed
+packs?|lanes?  =>  SIMD batch
 END
 }
 

@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC2154
 # Checks of studies, and of numbers that take long.
 
-# studies/paper from its own folder by one command: figures, table of key numbers, and nothing made again the second time
+# studies/paper from its own folder by one command: figures, table of K&C metrics, and nothing made again the second time
 paper_study() {
   local picture
   rm -rf studies/paper/out
@@ -10,7 +10,7 @@ paper_study() {
   for picture in toe camber lateral increments; do
     is_png "studies/paper/out/$picture.png" || { echo "no figure $picture"; return 1; }
   done
-  grep -q '^equilibrium  *0\.4477' "$logs/paper_study.txt" || { echo "no key numbers"; return 1; }
+  grep -q '^equilibrium  *0\.4477' "$logs/paper_study.txt" || { echo "no K&C metrics"; return 1; }
   (cd studies/paper && ./run.sh) >"$logs/paper_study_again.txt" 2>&1 || return 1
   ! grep '^paper:' "$logs/paper_study_again.txt"
 }

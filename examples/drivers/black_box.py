@@ -1,6 +1,6 @@
 """black_box.py DECK: the fit of dakota/dakota.in by scipy, with one process per design in place of the package.
 
-For optimisers that know programs and files only: the values go into a copy of settings.template, the key numbers come from a file with
+For optimisers that know programs and files only: the values go into a copy of settings.template, the K&C metrics come from a file with
 lines `value name`. A design costs the start of a program and the reading of the deck in addition; fit_by_scipy.py does without.
 """
 
@@ -18,7 +18,7 @@ TEMPLATE = (Path(__file__).parent / "settings.template").read_text()
 
 
 def key_numbers(deck: str, values: dict[str, float], folder: Path) -> dict[str, float]:
-    """The key numbers of one design, from a run of elastokin."""
+    """The K&C metrics of one design, from a run of elastokin."""
     settings = TEMPLATE
     for name, value in values.items():
         settings = settings.replace("{" + name + "}", repr(float(value)))

@@ -1,6 +1,6 @@
-"""least_squares.py DECK: two bushing rates and a hardpoint that give an axle three wanted key numbers, by scipy.
+"""least_squares.py DECK: two bushing rates and a hardpoint that give an axle three wanted K&C metrics, by scipy.
 
-Each evaluation changes the deck in memory and solves only the tests that the key numbers need.
+Each evaluation changes the deck in memory and solves only the tests that the K&C metrics need.
 """
 
 import sys

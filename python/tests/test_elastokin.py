@@ -178,7 +178,7 @@ class Numbers(unittest.TestCase):
     def test_wrong_types_and_counts_are_told_in_terms_of_python(self) -> None:
         calls = {
             "a path must be a str, found int": lambda: self.model[3],
-            "the name of a key number must be a str, found list": lambda: self.model.numbers(["left_bump_toe"]),
+            "the name of a K&C metric must be a str, found list": lambda: self.model.numbers(["left_bump_toe"]),
             "needs at least one name": lambda: self.model.numbers(),
             "the name of a case must be a str, found int": lambda: self.model.solve(3),
             "the name of a column must be a str, found int": lambda: self.model.solve("roll", columns=[3]),

@@ -231,7 +231,7 @@ contains
          is_other = any(abs(session%workspace%x - session%solved_x) > 0.0_wp)
       end if
       if (is_other) call fail(error, exit_usage, &
-         'numbers were changed after the last solution, and key numbers or messages on the model were requested with them: '// &
+         'numbers were changed after the last solution, and K&C metrics or messages on the model were requested with them: '// &
          'solve again before the compliance matrix, poses or derivatives are requested')
    end subroutine refuse_other_numbers
 

@@ -239,12 +239,12 @@ contains
       if (wheels > 1 .and. test%has_phase) &
          title = title//trim(merge(', anti-phase', ', in phase  ', this%is_anti))
       if (abs(this%offset) > 0.0_wp) title = title//', '//str(this%offset/millimetre)//' mm aft of the contact point'
-      if (this%vertical == 'patch') title = title//', contact point heights held'
-      if (this%vertical == 'centre') title = title//', wheel centres held'
+      if (this%vertical == 'patch') title = title//', contact point heights constant'
+      if (this%vertical == 'centre') title = title//', wheel centre heights constant'
       if (this%vertical == 'force') title = title//', by vertical force'
       if (this%vertical == 'road') title = title//', on the road'
       if (present(holds_heave)) then
-         if (holds_heave .and. test%action == rolls) title = title//', heave held'
+         if (holds_heave .and. test%action == rolls) title = title//', heave constant'
       end if
       if (is_shortened(this, test)) title = title//', '//str(this%from/swept_unit(test%unit), 3)//' to '// &
          str(this%to/swept_unit(test%unit), 3)//' '//trim(test%unit)//' (95 % of the way to the lock)'
@@ -287,11 +287,11 @@ contains
       case ('road')
          held = 'wheels on a rigid road'
       case ('force')
-         held = 'vertical force held'
+         held = 'vertical force constant'
       end select
       if (test%action /= rolls .or. control == 'force') return
-      held = 'height difference driven, axle load held'
-      if (holds_heave) held = 'height difference driven, heave held'
+      held = 'height difference prescribed, axle load constant'
+      if (holds_heave) held = 'height difference prescribed, heave constant'
    end function held_text
 
 end module ek_standard_tests

@@ -45,14 +45,14 @@ module ek_command
       'A remark reports a value outside the range of road vehicles and a likely cause (plausible = .false. in &model'//nl// &
       'disables these remarks). The last line is OK, or gives the counts of errors, warnings and remarks and the'//nl// &
       'most severe of these messages. The exit status is 3 if the model cannot be solved.', ''), &
-      command_t('report', 'report DECK [options]', 'report DECK', 'write a report page: curves, gradients, key numbers', &
+      command_t('report', 'report DECK [options]', 'report DECK', 'write a report page: curves, gradients, K&C metrics', &
       'Runs the tests of a deck and writes into DIR:'//nl// &
       '  report.html: one self-contained page;'//nl// &
       '  one CSV file per test, and compliance.csv: the compliance matrix at every state of the first test;'//nl// &
       '  key_numbers.csv and .json; gradients.csv and .json: slopes with window, unit and sign;'//nl// &
       '  windows/: the states of each test from which the slopes were read;'//nl// &
       '  picture.png and .svg; figures/: every chart (SVG and gnuplot script), views.svg with hardpoint names;'//nl// &
-      '  deck.csv: every value of the deck; deck_as_used.nml: one deck with the same results;'//nl// &
+      '  deck.csv: every parameter of the deck; deck_as_used.nml: one deck with the same results;'//nl// &
       '  report-files.csv: list of all files of the report.', ''), &
       command_t('loads', 'loads DECK [options]', 'loads DECK', 'write the loads on every part in load cases, for FEA', &
       'Solves the manoeuvres of a deck (&manoeuvre), and its load tables with a column `name`. Writes into DIR:'//nl// &
@@ -69,7 +69,7 @@ module ek_command
       command_t('compare', 'compare A.csv B.csv …   or   elastokin compare REPORT_A REPORT_B …', 'compare A B', &
       'overlay results and list the differences', &
       'Compares reports (folders written by report), or results of one case. compare.html lists the changes of the'//nl// &
-      'deck, and the key numbers and gradients sorted by change. The charts contain the curves of all results.'//nl// &
+      'deck, and the K&C metrics and gradients sorted by change. The charts contain the curves of all results.'//nl// &
       'The gradients are printed to standard output, and the ten largest changes to standard error.'//nl// &
       'Also writes tables with the columns change and verdict (changed, same, only in A, only in B,'//nl// &
       'not a number): differences.csv, number-differences.csv, curve-differences.csv, deck-differences.csv.'//nl// &
@@ -103,41 +103,41 @@ module ek_command
       target_help//nl// &
       'docs/EXPORT.md describes frame, signs and units of each file. If a number cannot be computed, no file is written.', ''), &
       command_t('derivatives', 'derivatives DECK [options]', 'derivatives DECK', &
-      'differentiate columns with respect to numbers of a deck', &
+      'differentiate columns with respect to parameters of a deck', &
       'Solves one case and writes DIR/<model>_<case>_derivatives.csv: the derivative of every column with respect to every'//nl// &
-      'number of the deck, in the unit of the column per unit of the number, and an estimate of the error. The error is'//nl// &
+      'parameter of the deck, in the unit of the column per unit of the number, and an estimate of the error. The error is'//nl// &
       'at most about 1e-7 of the largest derivative of the column, and large where a column has a corner. No solution is'//nl// &
       'repeated. Derivatives account for the change of the state, of the static equilibrium and of the trimmed preloads'//nl// &
       '(balance). A number of a mirrored half deck acts on both sides; the name point.left_lca_front.z selects one side.'//nl// &
       'With --of, the ten numbers with the largest effects on each column are printed. An effect is the change of a column'//nl// &
       'caused by 1 mm, 0.06 deg, or 1 % of a rate or force.', &
       exit_status_text), &
-      command_t('solve', 'solve DECK [options]', 'solve DECK', 'find numbers of a deck that give requested values', &
+      command_t('solve', 'solve DECK [options]', 'solve DECK', 'find parameters of a deck that give requested values', &
       'Changes the numbers of --vary within their bounds until the quantities of --for have the requested values.'//nl// &
-      'A quantity is a column of a case, an entry of its compliance matrix, or a key number of the report. Derivatives are'// &
+      'A quantity is a column of a case, an entry of its compliance matrix, or a K&C metric of the report. Derivatives are'// &
       nl//'exact, so Newton''s method needs only a few sweeps. Prints the values reached, the changed records, and the reason'// &
       nl//'for each value that was not reached. Writes DIR/<model>_solve.set for --set-file. If there are several solutions,'// &
       nl//'the solution with the smallest change found from this start is used.', &
       exit_status_text), &
       command_t('fit', 'fit FIT.nml [options]', 'fit FIT', 'fit factors of a deck to measured or required curves', &
-      'Finds the factors of a deck, within their bounds, by weighted least squares. Targets are curves, slopes, key numbers'//nl// &
+      'Finds the factors of a deck, within their bounds, by weighted least squares. Targets are curves, slopes, K&C metrics'//nl// &
       'and limits of several cases. Examples: hardpoints for a required curve, bushing rates from a measured curve.'//nl// &
       'Prints and draws the start, the target and the result. Also prints the 95 % confidence interval of each factor,'//nl// &
       'the factors at a bound, and the undetermined factors. Writes DIR/<fit>_factors.csv, <fit>_points.csv, <fit>.set'//nl// &
       'for --set-file, and the figure <fit>.png and .svg.', &
       exit_status_text), &
-      command_t('list', 'list DECK [options]', 'list DECK', 'list paths of numbers, cases and key numbers of a deck', &
+      command_t('list', 'list DECK [options]', 'list DECK', 'list paths of numbers, cases and K&C metrics of a deck', &
       'Prints the names that other commands accept for a deck. Nothing is solved.'//nl// &
-      '  numbers of the deck: path, value and unit; for settings, factors, derivatives and solve;'//nl// &
+      '  parameters of the deck: path, value and unit; for settings, factors, derivatives and solve;'//nl// &
       '  cases and standard tests: name, kind, swept value, range, unit and increments;'//nl// &
-      '  key numbers: name, unit and definition; for responses, fit and solve.'//nl// &
+      '  K&C metrics: name, unit and definition; for responses, fit and solve.'//nl// &
       'In a mirrored deck, a path without a side is the number of both sides. If only one of the lists is requested, it'//nl// &
       'is printed without a heading, and its first column contains the names alone.'//nl// &
       '--definitions lists the quantities of another program instead, for any deck: name, unit, sign, formula of columns'// &
       nl//'of elastokin, and how they differ.', '', alone='--definitions'), &
       command_t('new', 'new [KIND]', 'new [KIND]', 'print a commented deck of the library as a start', &
       'Prints a deck of the library to standard output: elastokin new mcpherson > front.nml. The deck is one file and gives'// &
-      nl//'the numbers of the deck of the library. Without KIND, lists the kinds with one line each. KIND is'//nl// &
+      nl//'the parameters of the deck of the library. Without KIND, lists the kinds with one line each. KIND is'//nl// &
       'double_wishbone | mcpherson | mcpherson_split_link | five_link | integral_link | semi_trailing | trailing_arm |'//nl// &
       'twist_beam | solid | push_rod.', '', -2), &
       command_t('schema', 'schema', 'schema', 'print all keys of a deck as JSON Schema', &
@@ -156,13 +156,13 @@ module ek_command
       option_t('run', '--solver S', 'lapack | sparse (faster; alias: plan); overrides the deck'), &
       option_t('run', '--increments N', 'number of increments over the range; overrides the deck'), &
       option_t('run', '--set path=value', &
-      'change a value of the deck; the new value is checked as in the deck; may be repeated:'//indent// &
+      'change a parameter of the deck; the new value is checked as in the deck; may be repeated:'//indent// &
       '--set point.lower_ball_joint.z=-105 --set "bushing.top_mount.kt(1)=500"'), &
       option_t('run', '--set-file FILE', 'read settings from a file, one per line: path = value'), &
       option_t('run', '--height H', 'start all tests H above design height, in the unit of the deck (model.start_height)'), &
       option_t('run', '--state NAME', 'start all tests in this &load_state of the deck (model.state)'), &
       option_t('run', '--responses a,b', &
-      'write only these key numbers of the report (names as in key_numbers.csv), and no other files'), &
+      'write only these K&C metrics of the report (names as in key_numbers.csv), and no other files'), &
       option_t('run', '--results FILE', &
       'file for --responses, with one line `value name` per number (default: -, standard output)'), &
       option_t('run', '--columns a,b,c', &
@@ -248,7 +248,7 @@ module ek_command
       option_t('solve', '--height H', 'as for run'), option_t('solve', '--state NAME', 'as for run'), &
       option_t('solve', '--quiet', quiet_help), &
       option_t('fit', '--out DIR', 'output folder (default: out, in the folder of the fit file)'), &
-      option_t('fit', '--set path=value', 'change a value of the deck of the fit'), &
+      option_t('fit', '--set path=value', 'change a parameter of the deck of the fit'), &
       option_t('fit', '--height H', 'as for run'), option_t('fit', '--state NAME', 'as for run'), &
       option_t('fit', '--page', 'also write DIR/<fit>.html: targets, curves, intervals, contributions, what moved'), &
       option_t('fit', '--no-plots', no_plots_help), option_t('fit', '--quiet', quiet_help), &
@@ -272,7 +272,7 @@ module ek_command
       option_t('study', '--time-limit TIME', 'stop before this time has passed: seconds or [hours:]minutes:seconds'), &
       option_t('study', '--status', 'print the progress of the study and exit'), &
       option_t('study', '--accept-failed', 'return exit status 0 even if designs failed'), &
-      option_t('study', '--set path=value', 'change a value of the deck of the study'), &
+      option_t('study', '--set path=value', 'change a parameter of the deck of the study'), &
       option_t('study', '--height H', 'as for run'), option_t('study', '--state NAME', 'as for run'), &
       option_t('study', '--quiet', quiet_help), &
       option_t('study', '--no-plots', no_plots_help), &
@@ -285,7 +285,7 @@ module ek_command
       'fan | family | histogram | scatter | parallel | convergence'), &
       option_t('plot', '--out DIR', 'folder of the tables (default: out, in the folder of the study file)'), &
       option_t('plot', '--samples N', 'number of designs, as in the run of the study'), &
-      option_t('plot', '--set path=value', 'change a value of the deck, as in the run of the study'), &
+      option_t('plot', '--set path=value', 'change a parameter of the deck, as in the run of the study'), &
       option_t('plot', '--height H', 'as for run'), option_t('plot', '--state NAME', 'as for run'), &
       option_t('plot', '--quiet', quiet_help), &
       option_t('export', '--to TARGET', target_words), &
@@ -336,9 +336,9 @@ module ek_command
       option_t('derivatives', '--height H', 'as for run'), option_t('derivatives', '--state NAME', 'as for run'), &
       option_t('derivatives', '--quiet', quiet_help), &
       option_t('new', '--points-only', 'print points and links only: no springs, joints instead of bushings'), &
-      option_t('list', '--paths', 'print the numbers of the deck'), &
+      option_t('list', '--paths', 'print the parameters of the deck'), &
       option_t('list', '--cases', 'print the cases and standard tests'), &
-      option_t('list', '--numbers', 'print the key numbers'), &
+      option_t('list', '--numbers', 'print the K&C metrics'), &
       option_t('list', '--definitions NAME', 'print the definitions of a program; a deck is not necessary:'//indent// &
       'adams | motionview | ipg | optimumk | lotus | mathworks | sae'), &
       option_t('list', '--like PATTERN', 'print only names that match; * stands for any letters: --like "bushing.*"'), &

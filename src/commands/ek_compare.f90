@@ -89,7 +89,7 @@ contains
       call compare_charts(this%results, this%threshold, this%charts, this%changes, this%curves)
       if (.not. (any(this%changes%is_known) .or. any([(count(this%rows(k)%is_there) > 1, k=1, size(this%rows))]) .or. &
          any([(count(this%numbers(k)%is_there) > 1, k=1, size(this%numbers))]))) then
-         call fail(error, exit_usage, this%results(1)%path//' has no curve, slope or key number in common with the other '// &
+         call fail(error, exit_usage, this%results(1)%path//' has no curve, slope or K&C metric in common with the other '// &
             'results: there is nothing to compare')
          return
       end if
@@ -128,7 +128,7 @@ contains
 
       if (size(this%shown) == 0) return
       lines = largest_lines(this%shown, this%threshold, most)
-      if (lines%count() == 0) call print_note(is_quiet, 'no key number or gradient changed by more than '// &
+      if (lines%count() == 0) call print_note(is_quiet, 'no K&C metric or gradient changed by more than '// &
          str(100*this%threshold, 4)//' %')
       if (lines%count() > 0) call print_note(is_quiet, 'largest changes:')
       do k = 1, lines%count()

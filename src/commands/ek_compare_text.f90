@@ -96,7 +96,7 @@ contains
       do k = 1, size(facts)
          call add_change(facts(k))
       end do
-      if (size(values) > 0) call out%line(plural(size(values), 'value of the deck differs:', 'values of the deck differ:'))
+      if (size(values) > 0) call out%line(plural(size(values), 'parameter of the deck differs:', 'parameters of the deck differ:'))
       order = [(k, k=1, size(values))]
       if (size(values) > few_changes) order = descending([(difference_size(values(k)), k=1, size(values))])
       do k = 1, min(size(values), few_changes)

@@ -217,9 +217,9 @@ contains
       character(:), allocatable :: text
       type(buffer_t) :: out
 
-      if (wants(1)) call add_table(paths, 'numbers of the deck')
+      if (wants(1)) call add_table(paths, 'parameters of the deck')
       if (wants(2)) call add_table(cases, 'cases and standard tests')
-      if (wants(3)) call add_table(key_numbers, 'key numbers')
+      if (wants(3)) call add_table(key_numbers, 'K&C metrics')
       text = out%text()
 
    contains

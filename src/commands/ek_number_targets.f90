@@ -32,7 +32,7 @@ contains
             numbers(k)%target = [targets(t)%low, targets(t)%high]
          end do
          if (is_there) cycle
-         call warnings%add(targets(t)%where//': target_band: the report has no key number '//quoted(trim(targets(t)%quantity))// &
+         call warnings%add(targets(t)%where//': target_band: the report has no K&C metric '//quoted(trim(targets(t)%quantity))// &
             ' (the names are those of key_numbers.csv, without left_ and right_)'//suggestion(trim(targets(t)%quantity), names))
       end do
    end subroutine set_targets

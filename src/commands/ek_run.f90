@@ -210,12 +210,12 @@ contains
       integer :: k
 
       if (.not. line%has('--responses')) then
-         if (line%has('--results')) call fail(error, exit_usage, '--results needs --responses: the names of key numbers')
+         if (line%has('--results')) call fail(error, exit_usage, '--results needs --responses: the names of K&C metrics')
          return
       end if
       do k = size(others), 1, -1
          if (line%has(trim(others(k)))) call fail(error, exit_usage, &
-            '--responses writes key numbers only, and cannot be used with '//trim(others(k))// &
+            '--responses writes K&C metrics only, and cannot be used with '//trim(others(k))// &
             trim(merge('; name a file for the numbers with --results FILE', &
             '                                                 ', others(k) == '--out')))
       end do

@@ -39,7 +39,7 @@ contains
       type(page_t) :: page
       type(figure_t), allocatable :: figures(:)
 
-      call begin_page(page, 'Solve: '//before%name, 'Numbers of the deck for which quantities have wanted values')
+      call begin_page(page, 'Solve: '//before%name, 'Parameters of the deck for which quantities have wanted values')
       call add_head(page, deck, before%name, found)
       call add_conditions(page, workspace, search, found)
       call add_unknowns(page, unknowns, found)
@@ -109,7 +109,7 @@ contains
       type(findings_t), intent(in) :: found
       integer :: j
 
-      call begin_section(page, 'numbers', 'Numbers of the deck', has_text=.true.)
+      call begin_section(page, 'numbers', 'Parameters of the deck', has_text=.true.)
       call begin_table(page, [character(16) :: 'Number', '>before', '>after', '>change', '>lower bound', '>upper bound', 'Unit', &
          '~Note'])
       do j = 1, size(unknowns)
@@ -122,7 +122,7 @@ contains
       end do
       call end_table(page)
       if (found%begins_at_bound) call add_text(page, 'p', &
-         'A number of the deck is outside its bounds; the search began at the bound.')
+         'A parameter of the deck is outside its bounds; the search began at the bound.')
 
    contains
 

@@ -39,7 +39,7 @@ contains
       end associate
       if (.not. all(found%is_reached)) call text%line('  sum of squares of the deviations, each divided by its weight: '// &
          str(found%sum_before, 6)//' -> '//str(found%sum_after, 6))
-      if (found%begins_at_bound) call text%line('  a number of the deck is outside its bounds; the search began at the bound')
+      if (found%begins_at_bound) call text%line('  a parameter of the deck is outside its bounds; the search began at the bound')
       do j = 1, size(unknowns)
          associate (number => unknowns(j)%direction)
             call text%line('  '//number%path//' = '//quantity(found%x(j), number%unit)//' (before '//str(number%value, 9)// &

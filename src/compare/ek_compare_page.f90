@@ -83,7 +83,7 @@ contains
          end if
       end if
       if (size(this%deck) > 0) then
-         call add_text(page, 'p', plural(size(this%deck), 'value of the deck differs', 'values of the deck differ')//'.')
+         call add_text(page, 'p', plural(size(this%deck), 'parameter of the deck differs', 'parameters of the deck differ')//'.')
          call add_values(page, this, this%deck, 'Value')
       else if (all(this%results%deck%is_known)) then
          call add_text(page, 'p', 'The decks have the same values.')
@@ -166,7 +166,7 @@ contains
       character(:), allocatable :: what
 
       what = 'gradients'
-      if (size(this%numbers) > 0) what = 'key numbers and gradients'
+      if (size(this%numbers) > 0) what = 'K&C metrics and gradients'
       do k = 1, size(changes)
          changes(k) = largest_change(this%shown(k))
       end do
@@ -207,7 +207,7 @@ contains
          'the order, follow from its share of A, or of the least span of a chart where A is smaller: noise is no change.')
       call add_targets(page, this%targets, [(letter_of(k), k=1, size(this%results))])
       call end_text(page)
-      if (size(this%targets) > 0) call add_text(page, 'h3', 'Key numbers and gradients')
+      if (size(this%targets) > 0) call add_text(page, 'h3', 'K&C metrics and gradients')
       if (size(this%shown) > 0) call add_numbers(page, this)
       order = descending(merge(abs(this%changes%change), -1.0_wp, this%changes%is_known))
       shown = min(most_rows/2, count(this%changes%is_changed))

@@ -93,7 +93,7 @@ contains
       character(:), allocatable :: text
       integer :: k
 
-      text = 'no main key number changed noticeably'
+      text = 'no main K&C metric changed noticeably'
       do k = 1, min(size(items), most_items)
          if (k == 1) text = items(1)%text
          if (k > 1) text = text//', '//items(k)%text

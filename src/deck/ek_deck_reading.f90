@@ -319,7 +319,7 @@ contains
       case ('lbf')
          if (key == 'mass') hint = '; for pounds give ''lb'''
       case ('ft', 'foot', 'feet', 'kip', 'kips', 'psi', 'slug', 'slugs', 'slinch')
-         hint = '; this unit is not supported: convert the numbers of the deck'
+         hint = '; this unit is not supported: convert the parameters of the deck'
       end select
    end function imperial_hint
 

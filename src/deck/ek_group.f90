@@ -34,7 +34,7 @@ module ek_group
       'the deck is the left half of an axle', 'a law for springs, stops, torsion springs and bushings', &
       'a damper, of which the gas force acts', 'a bump stop or a rebound stop', 'a torsion spring between two bodies', &
       'the axle and the car around it', 'the steering wheel and the rack', 'an additional mass on a body', '', &
-      'points from a file', 'a range in which a key number should lie', '', '', 'load factor and accelerations of the car', &
+      'points from a file', 'a range in which a K&C metric should lie', '', '', 'load factor and accelerations of the car', &
       'a state from which all tests can start', 'a rod, shim, slot or seat by which the axle is set up', &
       'static angles of a wheel that adjusters give', 'a part whose end deviates from the drawing', '']
 
@@ -346,7 +346,7 @@ module ek_group
       key_t(case_group, 'load', word, 1, max_loads, .false., role=load_group, about='loads that the case scales'), &
       key_t(case_group, 'drive', word, 1, 1, .false., role=joint_group, &
       about='wheel_travel, the driver joint whose value changes, or the rod adjuster.<name>'), &
-      key_t(case_group, 'wheel', word, 1, 1, .false., role=wheel_group, about='wheel whose travel is driven'), &
+      key_t(case_group, 'wheel', word, 1, 1, .false., role=wheel_group, about='wheel whose travel is prescribed'), &
       key_t(case_group, 'test', word, 1, 1, .false., about='test of the rig'), &
       key_t(case_group, 'vertical', word, 1, 1, .false., about='how a test holds the wheels'), &
       key_t(case_group, 'pose', word, 1, 1, .false., default='settled', &
@@ -453,9 +453,9 @@ module ek_group
       about='unit of a CSV file without a unit; that of the deck if not given'), &
       key_t(hardpoints_group, 'axes', word, 1, 1, .false., about='frame of the file'), &
       key_t(hardpoints_group, 'side', word, 1, 1, .false., about='points that are read; left with mirror, else both'), &
-      key_t(target_group, 'quantity', word, 1, 1, .true., about='name of a key number of the report'), &
-      key_t(target_group, 'low', number, 1, 1, .false., about='lower limit, in the unit of the key number'), &
-      key_t(target_group, 'high', number, 1, 1, .false., about='upper limit, in the unit of the key number'), &
+      key_t(target_group, 'quantity', word, 1, 1, .true., about='name of a K&C metric of the report'), &
+      key_t(target_group, 'low', number, 1, 1, .false., about='lower limit, in the unit of the K&C metric'), &
+      key_t(target_group, 'high', number, 1, 1, .false., about='upper limit, in the unit of the K&C metric'), &
       key_t(mirror_group, 'shared', word, 1, max_values, .false., about='names of the items that exist only once'), &
       key_t(every_group, 'note', prose, 1, 1, .false., about='free text, for instance the source of a number')]
 

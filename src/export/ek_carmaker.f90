@@ -137,7 +137,7 @@ contains
       case ('road')
          call add('compliance: loads at the wheel centre, the contact point held on the road by the tyre rate')
       case ('centre')
-         call add('compliance: loads at the wheel centre, its height held')
+         call add('compliance: loads at the wheel centre, its height constant')
       case default
          call add('compliance: loads at the wheel centre, vertical load constant')
       end select

@@ -35,11 +35,11 @@ contains
       do k = 1, size(names)
          call find_number(names(k), heads, number, wheel, side_of_only_wheel(suspension))
          if (number > 0) cycle
-         call mistakes%add('there is no key number '//quoted(trim(names(k)))// &
+         call mistakes%add('there is no K&C metric '//quoted(trim(names(k)))// &
             suggestion_by_part(trim(names(k)), known))
       end do
       if (size(known) == 0) then
-         call mistakes%add('the model has no key numbers: it has no wheel')
+         call mistakes%add('the model has no K&C metrics: it has no wheel')
       else
          call mistakes%add('key_numbers.csv of the report has all names')
       end if

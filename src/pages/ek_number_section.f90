@@ -80,7 +80,7 @@ contains
       is_shown = [(kept_number(report%numbers, k) == 0, k=1, size(report%numbers))]
       is_shown(summary_numbers(report%numbers, report%axle)) = .false.
       if (.not. any(is_shown)) return
-      call begin_section(page, 'key-numbers', 'Key numbers', is_printed=.false., has_text=.true.)
+      call begin_section(page, 'key-numbers', 'K&C metrics', is_printed=.false., has_text=.true.)
       call add_numbers(page, 'numbers', report, pack([(k, k=1, size(is_shown))], is_shown))
    end subroutine add_other_numbers
 

@@ -270,7 +270,7 @@ contains
    contains
 
       subroutine begin_ranges()
-         call begin_table(page, [character(24) :: 'Factor', '~Numbers of the deck', '>smallest', '>largest'])
+         call begin_table(page, [character(24) :: 'Factor', '~Parameters of the deck', '>smallest', '>largest'])
       end subroutine begin_ranges
 
       subroutine add_range(f)

@@ -311,10 +311,10 @@ contains
       k = 0
       if (.not. number%has_target) k = held_number(number, report%numbers)
       if (k > 0) then
-         words = without_capital(short_name(number))//' '//value_words(report%numbers(k))//' at held wheel height'
+         words = without_capital(short_name(number))//' '//value_words(report%numbers(k))//' at constant wheel height'
          parts = meaning_of(report%numbers(k), report%axle, report%numbers)
          if (parts /= '') words = words//': '//parts
-         words = words//' ('//value_words(number)//' at held vertical force, which includes the travel of the wheel)'
+         words = words//' ('//value_words(number)//' at constant vertical force, which includes the travel of the wheel)'
          return
       end if
       call assess(number, report%axle, report%numbers, assessment)

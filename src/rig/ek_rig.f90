@@ -268,7 +268,7 @@ contains
             call add_height(rig, suspension, 'rig_heave', case%where, wheels, [1.0_wp, 1.0_wp], control)
          call append_actuation(rig%actuations, '', 'rig_roll', 1.0_wp, follows_tangent)      ! times the track
          if (control == 'road') rig%place_name = 'roll of the road, left up'
-         if (.not. has_rates(suspension)) rig%place_name = rig%place_name//', heave held'
+         if (.not. has_rates(suspension)) rig%place_name = rig%place_name//', heave constant'
       case (steers)
          call append_actuation(rig%actuations, '', case%drive, 1.0_wp, follows_place)
          rig%place_name = 'travel of '//case%drive

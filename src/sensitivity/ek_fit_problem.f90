@@ -283,7 +283,7 @@ contains
          end if
          if (this%is_change) then
             if (allocated(wanted%key)) then
-               call mistakes%add(head//'of = ''change'' needs a column, which has a value at design; a key number has none')
+               call mistakes%add(head//'of = ''change'' needs a column, which has a value at design; a K&C metric has none')
                return
             end if
             wanted%is_change = .true.
@@ -302,7 +302,7 @@ contains
             return
          end if
          if (allocated(wanted%key)) then
-            call mistakes%add(head//'a key number is one value and has no curve; give value')
+            call mistakes%add(head//'a K&C metric is one value and has no curve; give value')
             return
          end if
          unit = ''

@@ -72,7 +72,7 @@ contains
       call find_study_slopes(here, slopes, is_valid)
       if (.not. is_valid) then
          call fail(error, exit_model, study%where//': the design at the centre of all factors has no derivatives: a response '// &
-            'has no value there, a state was not reached, or a number of the deck is outside its range')
+            'has no value there, a state was not reached, or a parameter of the deck is outside its range')
          return
       end if
       tolerance%responses = slopes%responses

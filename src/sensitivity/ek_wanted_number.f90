@@ -60,7 +60,7 @@ contains
       hint = suggestion(name, [character(name_length) :: heads, known])
       if (any(no_quantities == name)) hint = '; it describes the solution and is no quantity of the suspension'
       call fail(error, exit_usage, quoted(name)//' is no column of case '//quoted(workspace%cases(k)%case%name)// &
-         ', no entry of its compliance matrix and no key number'//hint)
+         ', no entry of its compliance matrix and no K&C metric'//hint)
    end subroutine find_wanted
 
    !> Finds a column of a case, to be read at a value of another column. `wanted%case` is 0 if the case does not have both columns,

@@ -46,7 +46,7 @@ contains
          end do
          if (size(factors) > before) cycle
          call fail(error, exit_deck, study%factors(f)%where//': factor '//quoted(study%factors(f)%name)// &
-            ': its paths lead to no number of the deck')
+            ': its paths lead to no parameter of the deck')
          return
       end do
       study%settings%pairs = reshape(place(pack(study%settings%pairs, .true.)), shape(study%settings%pairs))

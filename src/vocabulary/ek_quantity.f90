@@ -373,7 +373,7 @@ contains
             quantity = all_quantities(k)
             quantity%name = name
             if (index(quantity%title, '*') > 0) quantity%title = &
-               quantity%title(:index(quantity%title, '*') - 1)//trim(merge('load held  ', 'height held', c == 1))
+               quantity%title(:index(quantity%title, '*') - 1)//trim(merge('load constant  ', 'height constant', c == 1))
             if (quantity%title /= '') return
          end do
       end do

@@ -1,4 +1,4 @@
-# key_numbers.awk: key numbers of the three sweeps at the same wheel strokes.
+# key_numbers.awk: K&C metrics of the three sweeps at the same wheel strokes.
 #
 #     awk -f key_numbers.awk recursive/x.csv corrected/x.csv equilibrium/x.csv
 #

@@ -2,7 +2,7 @@
 # run.sh [FOLDER]: the paper's figures by one command, from any folder.
 #
 # Sweeps the McPherson strut over its stroke with all three methods, runs the study of the number of increments, draws toe,
-# camber, lateral movement, and the error over the number of increments, and prints a table of key numbers. Everything goes to
+# camber, lateral movement, and the error over the number of increments, and prints a table of K&C metrics. Everything goes to
 # FOLDER (default: out, beside this script). Files that are up to date are not made again.
 #
 # ELASTOKIN=/path/to/elastokin uses that program; otherwise the release build is compiled first.

@@ -1,5 +1,5 @@
-/* loop DECK PATH CASE N: changes a number of a deck and solves the case, N times, and prints the time of a design [µs]: with all
- * columns, and of the key numbers NUMBER... that may follow. */
+/* loop DECK PATH CASE N: changes a parameter of a deck and solves the case, N times, and prints the time of a design [µs]: with all
+ * columns, and of the K&C metrics NUMBER... that may follow. */
 #define _POSIX_C_SOURCE 200809L
 #include <elastokin.h>
 #include <stdio.h>

@@ -50,7 +50,7 @@ with sync_playwright() as tool:
     for row in table(folder / "deck-differences.csv"):
         expect(row["path"] in head and row["b"] in head, f"{row['path']} is not among what was changed")
     said = page.locator("#results p b").all_inner_texts()
-    expect(re.fullmatch(r"\d+ of \d+ key numbers and gradients changed by more than 1 %", said[0]), f"verdict: {said}")
+    expect(re.fullmatch(r"\d+ of \d+ K&C metrics and gradients changed by more than 1 %", said[0]), f"verdict: {said}")
     # each row has the values of a row of the CSV files, and the rows are sorted by their change there
     rows = page.locator("#results table", has_text="change %").first.locator("tbody tr").all()
     cells = [row.locator("td").all_inner_texts() for row in rows]

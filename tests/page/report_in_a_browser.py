@@ -103,7 +103,7 @@ with sync_playwright() as tool:
             expect(len(drawn) == len(wanted) and max(abs(a - b) for a, b in zip(drawn, wanted)) < 0.03, f"the curve of {own['name']} is not that of its table")
             sparks += 1
     expect(sparks > 5, f"{sparks} curves of cards")
-    # without script: the lines of the assessment, and each key number with its value and its name
+    # without script: the lines of the assessment, and each K&C metric with its value and its name
     plain = browser.new_context(java_script_enabled=False).new_page()
     plain.goto(page_file.as_uri())
     words = plain.locator("main").inner_text()
@@ -112,7 +112,7 @@ with sync_playwright() as tool:
         expect(f"Name: {own['name']}" in words and " | ".join(values) in words, f"without script, {own['name']} {values} is missing")
     missing = [line for line in page.locator("#summary .verdicts dd").all_inner_texts() if line not in words]
     expect(not missing, f"without script: {missing} are missing")
-    print(f"{sparks} curves of cards; without script, {len(data['numbers'])} key numbers as text")
+    print(f"{sparks} curves of cards; without script, {len(data['numbers'])} K&C metrics as text")
     plain.close()
 
     # hover: the values of the state in the table of the test

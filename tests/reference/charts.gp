@@ -190,7 +190,7 @@ $data << EOD
 EOD
 set output 'centre_lateral_in_load_held_deflection_mm_per_kn.svg'
 set label 1 'Lateral deflection' at screen 2.00000E-02, screen 9.45000E-01 font 'sans-serif:Bold,15' textcolor rgb '#202020'
-set label 2 'mm/kN    (in phase, load held)' at screen 2.00000E-02, screen 8.75000E-01 font ',12' textcolor rgb '#606060'
+set label 2 'mm/kN    (in phase, load constant)' at screen 2.00000E-02, screen 8.75000E-01 font ',12' textcolor rgb '#606060'
 set xlabel 'wheel travel [mm]    (+ bump)' offset 0, 6.50000E-01 font ',12' textcolor rgb '#606060'
 set yrange [*:*]
 unset object; unset label 3
@@ -231,7 +231,7 @@ $data << EOD
 EOD
 set output 'centre_lateral_in_load_held_camber_deg_per_kn.svg'
 set label 1 'Lateral force camber' at screen 2.00000E-02, screen 9.45000E-01 font 'sans-serif:Bold,15' textcolor rgb '#202020'
-set label 2 'deg/kN    (in phase, load held)' at screen 2.00000E-02, screen 8.75000E-01 font ',12' textcolor rgb '#606060'
+set label 2 'deg/kN    (in phase, load constant)' at screen 2.00000E-02, screen 8.75000E-01 font ',12' textcolor rgb '#606060'
 set xlabel 'wheel travel [mm]    (+ bump)' offset 0, 6.50000E-01 font ',12' textcolor rgb '#606060'
 set yrange [*:*]
 unset object; unset label 3

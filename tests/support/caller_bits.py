@@ -1,7 +1,7 @@
 """caller_bits.py FILE DECK...: writes what a caller gets of decks, every number to the bit.
 
 Calls the library that EK_LIBRARY names through the Python package, that is, through its C interface: of each deck the tables of all
-cases at the numbers of the deck, at other numbers and at those of the deck again, key numbers, compliance matrix and derivatives.
+cases at the parameters of the deck, at other numbers and at those of the deck again, K&C metrics, compliance matrix and derivatives.
 """
 
 import sys

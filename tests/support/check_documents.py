@@ -5,7 +5,7 @@
   installation) only this is checked there, and the same from share/doc/elastokin, whose folders are links.
 - README.md has at most 150 lines, and every number in its text stands in a phrase of readme_claims.txt. A phrase stands in
   README.md as it is, its files contain the texts that show it, and each of its numbers stands in one of these texts. With --run the
-  program (`elastokin` from the PATH) is asked for the key numbers of decks that the list names.
+  program (`elastokin` from the PATH) is asked for the K&C metrics of decks that the list names.
 - Ten terms that users look for are in a row of docs/glossary.md (Find a term).
 - Lines of `ours` have at most 120 characters (tables and code do not count), their sentences at most 35 words, and at most 1 % of
   these two colons.
@@ -74,7 +74,7 @@ def documents_below(folder):
 # ---- README ----------------------------------------------------------------------------------------
 
 def check_key_number(where, phrase, deck, name):
-    """One number of the phrase is the key number of the deck, rounded."""
+    """One number of the phrase is the K&C metric of the deck, rounded."""
     output = subprocess.run(["elastokin", "run", os.path.join(top, deck), "--quiet", "--responses", name],
                             capture_output=True, text=True, check=False).stdout
     value = output.split()[0] if output and not output.startswith("FAIL") else "nan"

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """check_said.py PROGRAM DECK...: recomputes what a report says of its numbers.
 
-For each deck, a report is written. Each key number of key_numbers.csv is computed again from the table that its condition names, by
+For each deck, a report is written. Each K&C metric of key_numbers.csv is computed again from the table that its condition names, by
 its definition alone: column, abscissa, factors of the left and right wheel, window. Each gradient of gradients.csv is
 the number of the same name. On the page, each number that is named beside another one has the relation that its label gives: slope at
 design and fitted slope have one sign and size, an inverse is one, a steer angle is toe times -1 on the left wheel. Each word on both
@@ -144,7 +144,7 @@ class Report:
                 self.same(row['name'], number(row['value']), found, noise=noise)
 
     def recompute(self, row):
-        """The value of a key number by its text, and the noise that counts as 0."""
+        """The value of a K&C metric by its text, and the noise that counts as 0."""
         text, condition, side = row['definition'], row['condition'], row['side'] or 'left'
         if condition == 'all tests':
             column = text.removeprefix('largest magnitude of ')
@@ -190,7 +190,7 @@ class Report:
             return []
 
     def check_gradients(self):
-        """A gradient has the value of the key number of its name."""
+        """A gradient has the value of the K&C metric of its name."""
         quantities = {}
         for row in self.numbers:
             if '(fitted)' in row['quantity']:

@@ -3,7 +3,7 @@
 
 Part 1: decks of input/ and tests/decks/ with seeded changes, so that numbers have no value on purpose: tests that end early (ranges
 times 5, a stop or its clearance in the window), tests of one side, a window with few increments, springs without rate, one wheel
-instead of two, paths by arc length, a load table, coarse recursive paths. For each key number: the report (key_numbers.csv, and the
+instead of two, paths by arc length, a load table, coarse recursive paths. For each K&C metric: the report (key_numbers.csv, and the
 note of gradients.csv), `run --responses`, the C interface by ctypes (ek_numbers), the Python package (Model.numbers), and the begin
 of `solve --for NAME=keep`.
 - A value is the same to 1e-9 of its size, or of 10 in its unit (numbers that are zero by symmetry).
@@ -363,7 +363,7 @@ def points_of(deck):
 
 
 def fresh_key(deck, settings, name):
-    """A key number of a new process; None without a value."""
+    """A K&C metric of a new process; None without a value."""
     ran = run('run', deck, '--quiet', '--set-file', settings, '--responses', name)
     return float(ran.stdout.split()[0]) if ran.returncode == 0 else None
 
@@ -379,7 +379,7 @@ def at_place(rows, place):
 
 
 def problem(source, folder):
-    """A deck, two numbers that may change by some mm, a key number and a column at a state of the schedule of parallel travel."""
+    """A deck, two numbers that may change by some mm, a K&C metric and a column at a state of the schedule of parallel travel."""
     name = source.choice(AXLES)
     deck = ROOT / f'input/{name}/{name}.nml'
     points = points_of(deck)

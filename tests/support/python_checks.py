@@ -78,7 +78,7 @@ with tempfile.TemporaryDirectory() as folder:
             return dict(reversed(line.split()) for line in open(results))
 
         for what, jobs, in_c in (('whole table, 21 states', (table, table_of_library, table_of_process), times_in_c[0]),
-                                 ('two key numbers', (numbers, numbers_of_library, numbers_of_process), times_in_c[1])):
+                                 ('two K&C metrics', (numbers, numbers_of_library, numbers_of_process), times_in_c[1])):
             jobs[0](1.0)
             python, library = medians(*jobs[:2])
             process, = medians(jobs[2])

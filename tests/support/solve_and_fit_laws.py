@@ -2,7 +2,7 @@
 """Random solves and fits of the axles in input/, checked by laws. usage: solve_and_fit_laws.py PROGRAM [RUNS [SEED]].
 
 A solve never ends with a larger sum of squares than it began with; what it calls reached is reached, by a run with its settings; a
-number without effect has not moved, and no number of a deck that satisfies all conditions; numbers are between their bounds;
+number without effect has not moved, and no parameter of a deck that satisfies all conditions; numbers are between their bounds;
 settings, table and records give the same numbers.
 A fit never ends with a larger sum of squares; a factor without effect or not determined keeps its value and is not learned; a factor
 at a bound has an interval that begins or ends there; no interval is empty; settings and table give the same numbers.

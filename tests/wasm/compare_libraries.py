@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """compare_libraries.py LIBRARY: the Python package on the WebAssembly program of this environment and on the native LIBRARY: opening,
-numbers, cases, all columns of every case, key numbers, compliance and derivatives of every deck of the library, in two processes.
+numbers, cases, all columns of every case, K&C metrics, compliance and derivatives of every deck of the library, in two processes.
 
 Names, units, flags and messages are equal but for digits. Numbers may differ by 1e-10 of the largest number of their unit in the table
-(at least 1), forces on the clamps of the twist beam, which cancel, by 1e-6 N; key numbers by 1e-9, derivatives by 1e-6. Exit status 1 with a line per failure.
+(at least 1), forces on the clamps of the twist beam, which cancel, by 1e-6 N; K&C metrics by 1e-9, derivatives by 1e-6. Exit status 1 with a line per failure.
 """
 import json
 import os

@@ -183,13 +183,13 @@ with tempfile.TemporaryDirectory() as work:
     rows = list(csv.DictReader((Path(work) / "c/number-differences.csv").open()))
 wanted = {row["name"] for row in rows if row["verdict"] != "same"}
 found = {text.split("\t")[0] for text in page.locator("#comparison table").nth(1).locator("tr").all_inner_texts()[1:]}
-require(found == wanted, f"key numbers that changed: {found ^ wanted} differ from the native program")
+require(found == wanted, f"K&C metrics that changed: {found ^ wanted} differ from the native program")
 lines = [text.split("\t") for text in page.locator("#comparison table").first.locator("tr").all_inner_texts()[1:]]
 require(len(lines) >= 8, f"the assessment has the lines {lines}")
 for name, before, now in lines:
     require(reports[0].get(name, "–") == before and reports[1].get(name) == now, f"the assessment of {name} is not that of the native program: {before}; {now}")
 require(page.locator("#comparison tr.changed").count() >= 1, "no line of the assessment is marked as changed")
-print(f"comparison: {len(found)} key numbers changed, {len(lines)} lines of the assessment")
+print(f"comparison: {len(found)} K&C metrics changed, {len(lines)} lines of the assessment")
 
 # the tolerance of a number, by the derivatives of the native program
 bench.deck("mcpherson_axle")

@@ -123,7 +123,7 @@ with sync_playwright() as tool:
     require(text().endswith("\n&bushing name = 'more', bodies = 'lca', 'chassis', at = 'lca_rear', kt = 1, 2, 3 /"), f"completed: {text()[-120:]}")
     shot("completed")
 
-    # a study: paths, cases and key numbers of its deck, as the program lists them
+    # a study: paths, cases and K&C metrics of its deck, as the program lists them
     study = "&study name = 's', kind = 'grid', deck = 'axle.nml', case = 'roll' /\n"
     data = page.evaluate_handle("""(files) => {
       const data = new DataTransfer();

@@ -85,7 +85,7 @@ class Hand(Workbench):
 
 
 def number(text, name, settings=""):
-    """A key number by the native program."""
+    """A K&C metric by the native program."""
     (folder / "deck.nml").write_text(text)
     (folder / "settings.set").write_text(settings)
     found = subprocess.run([native, "run", folder / "deck.nml", "--responses", name, "--set-file", folder / "settings.set", "--quiet"],

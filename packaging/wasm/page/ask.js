@@ -1,5 +1,5 @@
 // Questions about a number of elastokin.html, behind curves.js: what moves it most (derivatives, drawn as arrows at the points), what
-// it consists of (explain), and which numbers of the deck give it another value (solve). The command line answers, with the document.
+// it consists of (explain), and which parameters of the deck give it another value (solve). The command line answers, with the document.
 const question = { conditions: [], unknowns: new Map(), arrows: [], found: [] };      // unknowns: path -> [low, high]
 
 // The number pointed at: a column of the test at the state of the slider, as `solve` names it

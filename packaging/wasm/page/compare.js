@@ -1,4 +1,4 @@
-// A baseline and the document compared in elastokin.html, behind ask.js: the lines of the assessment of both reports, all key numbers
+// A baseline and the document compared in elastokin.html, behind ask.js: the lines of the assessment of both reports, all K&C metrics
 // that have changed, and the page of `elastokin compare`.
 const comparison = { isRunning: false };
 
@@ -42,7 +42,7 @@ async function compareAll() {
   const assessment = tableWith(`Assessment of ${base.name} and now`, ["", base.name, "now"], lines);
   [...assessment.rows].slice(1).forEach((row, k) => row.classList.toggle("changed", lines[k][1] !== lines[k][2]));
   box.replaceChildren(assessment,
-    tableWith(`${changed.length} of ${numbers.length} key numbers changed by more than 1 %`, ["Key number", base.name, "now", "Δ", "%", "unit"],
+    tableWith(`${changed.length} of ${numbers.length} K&C metrics changed by more than 1 %`, ["K&C metric", base.name, "now", "Δ", "%", "unit"],
       changed.map(({ name, a, b, difference: change, percent, unit }) => [name, Number(a), Number(b), Number(change), Number(percent), unit])));
   if (page) {
     showPage(page);

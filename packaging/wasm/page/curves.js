@@ -26,7 +26,7 @@ async function solve() {
     if (result.units) {
       bench.units = new Map(result.units);
       fillRates();
-      fill(element("key-number"), ["key number …", ...result.keyNumbers], "key number …");
+      fill(element("key-number"), ["K&C metric …", ...result.keyNumbers], "K&C metric …");
     }
     const { columns } = result;
     if (!columns) {

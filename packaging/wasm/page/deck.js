@@ -1,4 +1,4 @@
-// The numbers of a deck in its text, for workbench.js: points, and the numbers of other groups by the path that --set uses.
+// The parameters of a deck in its text, for workbench.js: points, and the numbers of other groups by the path that --set uses.
 
 // A text of the same length in which strings are ×, comments blank
 function maskOf(text) {

@@ -122,7 +122,7 @@ function putKey(card, name) {
   };
 }
 
-// In a study or fit, of whose groups the program has no schema: paths, cases and key numbers of its deck
+// In a study or fit, of whose groups the program has no schema: paths, cases and K&C metrics of its deck
 async function stringsOfStudy(key) {
   const text = files.get(shown) ?? "", study = groupsOf(text).find(({ name }) => name === "study" || name === "fit");
   const model = pathFrom(shown, stringsOf(text, study?.keys.deck)[0] ?? ""), kind = { path: "paths", case: "cases", quantity: "numbers" }[key];

@@ -1,4 +1,4 @@
-// The tables of elastokin.html with numbers of the deck, behind workbench.js. Cells that exist are only given their values, so that
+// The tables of elastokin.html with parameters of the deck, behind workbench.js. Cells that exist are only given their values, so that
 // typing is not interrupted.
 
 // A field for a number of the document, with a button that lets `solve` change it: `find` returns the number as it is now, `step` its
@@ -70,7 +70,7 @@ function fillPoints() {
   });
 }
 
-// Rates, lengths and all other numbers of the deck that the program lists, with their units
+// Rates, lengths and all other parameters of the deck that the program lists, with their units
 function fillRates() {
   const table = element("rates"), rows = bench.rows.filter(({ numbers }) => numbers.every(({ path }) => bench.units.has(path)));
   const paths = rows.map(({ path, numbers }) => `${path} ${numbers.length} ${bench.units.get(numbers[0].path)}`).join("\n");

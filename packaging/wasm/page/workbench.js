@@ -1,7 +1,7 @@
 // Points and curves of elastokin.html: the hardpoints of the document as three views and a table (views.js), and the curves of a test
 // that follow every change (curves.js). A change is a change of the text, so that text, views, tables and curves are one document. The
 // numbers are those of `elastokin run DECK --case TEST --increments 20`, solved anew after each change: in a model that the worker
-// keeps open, because only numbers of the deck change while a point is dragged.
+// keeps open, because only parameters of the deck change while a point is dragged.
 const tests = ["parallel_travel", "opposite_travel", "roll", "steering", "lateral_force", "braking", "traction", "aligning_torque"];
 const wanted = ["toe_deg", "camber_deg", "caster_deg", "track_change_mm", "wheel_rate_n_per_mm", "roll_centre_height_mm"];
 const colours = ["#b5651d", "#7a4fa3", "#1d8a6b", "#a8201a"];

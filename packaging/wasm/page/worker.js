@@ -72,7 +72,7 @@ async function solveByCommand({ files, deck, test, increments, columns }) {
   return { ...result, columns: result.trap ? null : columnsOf(result.written) };
 }
 
-// Ranges of standard tests that end earlier where the axle locks. The range of `steering` is a number of the deck
+// Ranges of standard tests that end earlier where the axle locks. The range of `steering` is a parameter of the deck
 const reaches = { parallel_travel: 80, opposite_travel: 60, roll: 3 };
 
 // Whether a solution in the open model is that of the standard test: an axle that locks inside the range has another range

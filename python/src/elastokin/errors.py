@@ -12,7 +12,7 @@ class ElastokinError(Exception):
 
 
 class UsageError(ElastokinError, ValueError):
-    """An unknown path, case, column or key number, or an index outside its range."""
+    """An unknown path, case, column or K&C metric, or an index outside its range."""
 
     code = USAGE
 
@@ -42,7 +42,7 @@ class FileError(ElastokinError, OSError):
 
 
 class ConvergenceWarning(UserWarning):
-    """Some states did not converge. Their rows have NaN and `converged` = 0. Key numbers that require them are NaN. Others are valid."""
+    """Some states did not converge. Their rows have NaN and `converged` = 0. K&C metrics that require them are NaN. Others are valid."""
 
 
 class ModelWarning(UserWarning):

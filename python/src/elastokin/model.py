@@ -196,10 +196,10 @@ class Model:
             return f"<Model of {self._source}, closed>"
         return f"<Model '{self.name}' of {self._source}: {lib.ek_parameter_count(self._handle)} numbers, {len(self.cases)} cases>"
 
-    # ---- numbers of the deck ----
+    # ---- parameters of the deck ----
 
     def __getitem__(self, path: str) -> float:
-        """A number of the deck in the unit of the deck; NaN if the path stands for different numbers."""
+        """A parameter of the deck in the unit of the deck; NaN if the path stands for different numbers."""
         value = c_double()
         with self._lock:
             self._check(lib.ek_get(self._open, bytes_for(path, "a path"), byref(value)))
@@ -274,7 +274,7 @@ class Model:
 
     @property
     def parameters(self) -> Parameters:
-        """All numbers of the deck with their units: a mapping from path to value and unit."""
+        """All parameters of the deck with their units: a mapping from path to value and unit."""
         with self._lock:
             if self._parameters is None:
                 n = lib.ek_parameter_count(self._open)
@@ -289,7 +289,7 @@ class Model:
 
     @property
     def x(self) -> NDArray[np.float64]:
-        """All numbers of the deck in its units, in the order of `parameters.paths`. Assign an array to change them.
+        """All parameters of the deck in its units, in the order of `parameters.paths`. Assign an array to change them.
 
         The array is a copy and is read-only: `x = model.x.copy(); x[k] = 3; model.x = x`.
         """
@@ -397,10 +397,10 @@ class Model:
             )
         return slopes, doubts
 
-    # ---- key numbers ----
+    # ---- K&C metrics ----
 
     def numbers(self, *names: str) -> dict[str, float]:
-        """Key numbers with these names, as in key_numbers.csv of the report. Solves only the tests that these numbers require.
+        """K&C metrics with these names, as in key_numbers.csv of the report. Solves only the tests that these numbers require.
 
         On an axle, the name of a number of one wheel begins with `left_` or `right_`; the name of an axle number does not. A number is NaN
         if it requires a state that did not converge, or if the model does not define it. States outside the window of a slope are not
@@ -408,7 +408,7 @@ class Model:
         """
         if not names:
             raise TypeError("numbers() needs at least one name, as in numbers('left_bump_toe'); key_numbers() returns all numbers")
-        wanted = texts_for(list(names), "the name of a key number")
+        wanted = texts_for(list(names), "the name of a K&C metric")
         values = np.empty(len(names))
         with self._lock:
             code = lib.ek_numbers(self._open, len(names), wanted, values)
@@ -422,25 +422,25 @@ class Model:
         return dict(zip(names, values.tolist()))
 
     def key_numbers(self) -> dict[str, float]:
-        """All key numbers of this model by name."""
+        """All K&C metrics of this model by name."""
         names = self.number_names
         return self.numbers(*names) if names else {}
 
     @property
     def number_names(self) -> tuple[str, ...]:
-        """Names of all key numbers. No case is solved, so the value of a listed number may be NaN."""
+        """Names of all K&C metrics. No case is solved, so the value of a listed number may be NaN."""
         with self._lock:
             return self._texts(lib.ek_number_name, lib.ek_number_count(self._open))
 
     @property
     def number_units(self) -> dict[str, str]:
-        """Unit of each key number by name."""
+        """Unit of each K&C metric by name."""
         with self._lock:
             return dict(zip(self.number_names, self._texts(lib.ek_number_unit, lib.ek_number_count(self._open))))
 
     @property
     def number_definitions(self) -> dict[str, str]:
-        """Definition of each key number by name."""
+        """Definition of each K&C metric by name."""
         with self._lock:
             return dict(zip(self.number_names, self._texts(lib.ek_number_definition, lib.ek_number_count(self._open))))
 

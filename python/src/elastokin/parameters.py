@@ -1,4 +1,4 @@
-"""The numbers of a deck as a mapping."""
+"""The parameters of a deck as a mapping."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 
 class Parameter(NamedTuple):
-    """One number of the deck."""
+    """One parameter of the deck."""
 
     value: float
     """Current value in `unit`."""
@@ -23,7 +23,7 @@ class Parameter(NamedTuple):
 
 
 class Parameters(Mapping[str, Parameter]):
-    """Mapping from the path of each number of a deck to its current value and its unit. Change numbers with the model."""
+    """Mapping from the path of each parameter of a deck to its current value and its unit. Change numbers with the model."""
 
     def __init__(
         self, paths: tuple[str, ...], units: tuple[str, ...], given: tuple[bool, ...], left: tuple[int, ...],

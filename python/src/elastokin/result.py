@@ -116,7 +116,7 @@ class Result:
         return self._matrices[k]
 
     def derivatives(self, columns: Sequence[str], numbers: Sequence[str], row: int) -> Derivatives:
-        """Exact derivatives of columns with respect to numbers of the deck at a state. No solution is repeated.
+        """Exact derivatives of columns with respect to parameters of the deck at a state. No solution is repeated.
 
         `columns`: columns of the case, or entries of its compliance matrix (names as in `elastokin run --compliance`). `numbers`: paths;
         each stands for one number, or for this number on both sides of a mirrored axle. Derivatives account for the change of the

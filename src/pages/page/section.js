@@ -1,4 +1,4 @@
-// The sections of a page, made from their data (ek_page): text, facts, warnings, tables, folded blocks, key numbers, and the places
+// The sections of a page, made from their data (ek_page): text, facts, warnings, tables, folded blocks, K&C metrics, and the places
 // of charts and figures. Every string of the data is escaped here.
 
 const data = JSON.parse(document.getElementById("data").textContent), page = document.documentElement;
@@ -52,7 +52,7 @@ function places(ids, notes, is_first) {
   }).join("")}</div>`;
 }
 
-// The target of a link to the curve of a key number: its chart, in its test or else in another one, or the section of its test. Toe
+// The target of a link to the curve of a K&C metric: its chart, in its test or else in another one, or the section of its test. Toe
 // is in the chart of steer where a test has both.
 function place_of({ test: name, y }) {
   const is_shown = (curve) => y.includes(curve.y) || y.includes(curve.y.replace("steer_deg", "toe_deg"));
@@ -70,7 +70,7 @@ const opposite = (number) => number.is_opposite ? small(number.sides) : "";
 const band = ({ band: limits, verdict, target }) =>
   limits ? span(look_of_verdict(verdict), `${verdict} ${target ? "target" : "usual"} ${limits}`) : "";
 
-// Formula and condition of a key number, folded, and the numbers that it stands for.
+// Formula and condition of a K&C metric, folded, and the numbers that it stands for.
 function how(number) {
   const equal = data.numbers.filter(({ instead }) => data.numbers[instead] === number).map((other) => ` ${other.relation} ${escaped(other.title)}: ` +
     `${printed(other)} ${escaped(other.unit)}${opposite(other)} (${escaped(other.condition)}).`);
@@ -78,7 +78,7 @@ function how(number) {
     `${number.reason ? ` No value: ${escaped(number.reason)}.` : ""}${equal.join("")} Name: <code>${escaped(number.name)}</code></p></details>`;
 }
 
-// The curve of a key number over its test, the size of a word, with a dot at design: of the left wheel or of the axle, and that of the
+// The curve of a K&C metric over its test, the size of a word, with a dot at design: of the left wheel or of the axle, and that of the
 // right wheel behind it.
 function spark({ curve }) {
   const test = curve && data.tests.find(({ name }) => name === curve.test);
@@ -111,7 +111,7 @@ function card(number) {
     `${span("held", number.held)}${span("held not-printed", number.parts)}${how(number)}</li>`;
 }
 
-// The other key numbers: a table for each group.
+// The other K&C metrics: a table for each group.
 function tables_of(indices) {
   const groups = new Map();
   for (const number of indices.map((k) => data.numbers[k])) groups.set(number.group, [...groups.get(number.group) || [], number]);
