@@ -97,9 +97,9 @@ def item(words):
 
 
 def code(formula):
-    """A formula as a block of code, broken at operators between blanks."""
-    lines = textwrap.wrap(formula, 112, break_long_words=False, break_on_hyphens=False)
-    return "".join("\n      " + line for line in lines) + "\n"
+    """A formula as a block of code, indented for python-markdown as well as for CommonMark, broken at operators between blanks."""
+    lines = textwrap.wrap(formula, 110, break_long_words=False, break_on_hyphens=False)
+    return "".join("\n        " + line for line in lines) + "\n"
 
 
 def entry(row):
