@@ -217,8 +217,8 @@ int ek_derivatives(ek_model *model, int row, int n_columns, const char *const *c
  * (input/QUANTITIES.md). If preload trim (`balance`) did not converge, the message lists no K&C metrics, and all
  * values are NaN. */
 int ek_numbers(ek_model *model, int n, const char *const *names, double *values);
-int ek_number_count(ek_model *model);               /* count of all names. No case is solved; a listed key
-                                                       number may be NaN */
+int ek_number_count(ek_model *model);               /* count of all names. No case is solved; a listed K&C
+                                                       metric may be NaN */
 const char *ek_number_name(ek_model *model, int k);
 const char *ek_number_unit(ek_model *model, int k);
 const char *ek_number_definition(ek_model *model, int k);

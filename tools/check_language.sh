@@ -229,7 +229,10 @@ find_words() { # find_words LIST LINES
 user_lines() {
   git -C "$top" ls-files -- '*.md' ':!:docs/theory' ':!:docs/compilers.md' ':!:docs/extending.md' ':!:docs/tour.md' ':!:CONTRIBUTING.md' \
     ':!:packaging' ':!:tests' ':!:input/NAMES.md' | while IFS= read -r file; do
-    awk -v name="$file" '/^```/ {code = !code; next} code || /^    / {next} {gsub(/`[^`]*`/, ""); print name ":" FNR ":" $0}' "$top/$file"
+    # the last two words of a line are read again with the first two of the next, so that wording that is split is found
+    awk -v name="$file" '/^```/ {code = !code; next} code || /^    / {next} {gsub(/`[^`]*`/, ""); print name ":" FNR ":" $0}
+      NF == 0 || /^[|#]/ {end = ""; next} end != "" && !/^ *[-*] / {print name ":" FNR ":" end " " $1 " " $2}
+      {end = $(NF > 1 ? NF - 1 : NF) (NF > 1 ? " " $NF : "")}' "$top/$file"
   done
   git -C "$top" ls-files -- 'src/*.f90' 'src/*.F90' ':!:src/vocabulary/ek_definition_rows.f90' | while IFS= read -r file; do
     awk -v q="'" -v name="$file" '{

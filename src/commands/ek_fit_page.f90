@@ -16,7 +16,8 @@ module ek_fit_page
    use ek_fit_files, only: note_of, fit_figure, target_rms_t, rms_of_target
    use ek_figure, only: figure_t
    use ek_figure_data, only: figures_json
-   use ek_page, only: page_t, begin_page, begin_section, add_text, add_facts, begin_table, add_cell, add_bar, add_group, &
+   use ek_page, only: page_t, begin_page, begin_section, add_text, add_facts, put_fact, begin_table, add_cell, add_bar, &
+      add_group, &
       end_table, add_figure, set_data, page_text
    use ek_moved_section, only: add_moved, append_figure
    implicit none(type, external)
@@ -63,23 +64,14 @@ contains
       type(fit_result_t), intent(in) :: found
       type(message_list_t) :: names, values
 
-      call add('Fit', fit%name)
-      call add('Deck', fit%deck)
-      call add('Model', model)
-      call add('Sum of squares', str(found%sum_before, 6)//' → '//str(found%sum_after, 6))
-      call add('Iterations', str(found%steps))
-      call add('Program', 'elastokin '//version)
-      call add('Date', date_text())
+      call put_fact(names, values, 'Fit', fit%name)
+      call put_fact(names, values, 'Deck', fit%deck)
+      call put_fact(names, values, 'Model', model)
+      call put_fact(names, values, 'Sum of squares', str(found%sum_before, 6)//' → '//str(found%sum_after, 6))
+      call put_fact(names, values, 'Iterations', str(found%steps))
+      call put_fact(names, values, 'Program', 'elastokin '//version)
+      call put_fact(names, values, 'Date', date_text())
       call add_facts(page, names, values)
-
-   contains
-
-      subroutine add(name, value)
-         character(*), intent(in) :: name, value
-         call names%add(name)
-         call values%add(value)
-      end subroutine add
-
    end subroutine add_head
 
    !> Adds the targets with the root mean squares of their differences.

@@ -15,7 +15,8 @@ module ek_solve_page
    use ek_figure, only: figure_t, new_figure, add_series, as_both, as_points
    use ek_figure_data, only: figures_json
    use ek_gnuplot, only: on_level, on_derivative
-   use ek_page, only: page_t, begin_page, begin_section, add_text, add_facts, begin_table, add_cell, add_bar, add_group, &
+   use ek_page, only: page_t, begin_page, begin_section, add_text, add_facts, put_fact, begin_table, add_cell, add_bar, &
+      add_group, &
       end_table, add_figure, set_data, page_text
    use ek_moved_section, only: add_moved, append_figure
    use ek_solve_text, only: label_of, add_explanation, has_no_effect
@@ -59,23 +60,14 @@ contains
       type(findings_t), intent(in) :: found
       type(message_list_t) :: names, values
 
-      call add('Deck', deck)
-      call add('Model', model)
-      call add('Conditions', str(count(found%is_reached))//' of '//str(size(found%is_reached))//' reached')
-      call add('Sum of squares', str(found%sum_before, 6)//' → '//str(found%sum_after, 6))
-      call add('Designs solved', str(found%sweeps))
-      call add('Program', 'elastokin '//version)
-      call add('Date', date_text())
+      call put_fact(names, values, 'Deck', deck)
+      call put_fact(names, values, 'Model', model)
+      call put_fact(names, values, 'Conditions', str(count(found%is_reached))//' of '//str(size(found%is_reached))//' reached')
+      call put_fact(names, values, 'Sum of squares', str(found%sum_before, 6)//' → '//str(found%sum_after, 6))
+      call put_fact(names, values, 'Designs solved', str(found%sweeps))
+      call put_fact(names, values, 'Program', 'elastokin '//version)
+      call put_fact(names, values, 'Date', date_text())
       call add_facts(page, names, values)
-
-   contains
-
-      subroutine add(name, value)
-         character(*), intent(in) :: name, value
-         call names%add(name)
-         call values%add(value)
-      end subroutine add
-
    end subroutine add_head
 
    !> Adds the table of conditions: target, values before and after, weight.

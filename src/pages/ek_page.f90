@@ -18,7 +18,7 @@ module ek_page
    use ek_page_assets, only: add_style, add_script, add_live_style, add_live_script, add_turntable_script, add_figure_script
    implicit none(type, external)
    private
-   public :: page_t, begin_page, begin_section, add_text, add_file, add_warnings, add_facts, begin_fold, end_fold
+   public :: page_t, begin_page, begin_section, add_text, add_file, add_warnings, add_facts, put_fact, begin_fold, end_fold
    public :: write_as_text, write_as_data, end_text, begin_beside, end_beside
    public :: begin_table, add_cell, add_numbers, add_bar, add_group, end_table
    public :: add_charts, begin_pictures, end_pictures, add_picture, add_data_picture, add_figure, add_legend, add_block, page_text
@@ -215,6 +215,15 @@ contains
       call add_block(page, trim(merge('verdicts', 'facts   ', present(marks))), '['//rows//']')
    end subroutine add_facts
 
+   !> Appends a fact to the lists of add_facts.
+   pure subroutine put_fact(names, values, name, value)
+      type(message_list_t), intent(inout) :: names, values
+      character(*), intent(in) :: name, value
+
+      call names%add(name)
+      call values%add(value)
+   end subroutine put_fact
+
    !> Begins a row of two blocks, side by side on a wide screen. The blocks follow until end_beside.
    pure subroutine begin_beside(page)
       type(page_t), intent(inout) :: page
@@ -229,11 +238,19 @@ contains
    pure subroutine end_beside(page)
       type(page_t), intent(inout) :: page
 
-      call say(page, '</div>')
+      call end_blocks(page, '</div>')
+   end subroutine end_beside
+
+   !> Ends a block that contains blocks.
+   pure subroutine end_blocks(page, tag)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: tag
+
+      call say(page, tag)
       if (.not. page%has_data) return
       call page%sections%close(']')
       call page%sections%close('}')
-   end subroutine end_beside
+   end subroutine end_blocks
 
    !> Begins a block that a click on its summary opens. Its blocks follow until end_fold.
    pure subroutine begin_fold(page, summary, id)
@@ -256,10 +273,7 @@ contains
    pure subroutine end_fold(page)
       type(page_t), intent(inout) :: page
 
-      call say(page, '</details>')
-      if (.not. page%has_data) return
-      call page%sections%close(']')
-      call page%sections%close('}')
+      call end_blocks(page, '</details>')
    end subroutine end_fold
 
    !> Begins a table with its column headings. A heading that begins with '>' marks a column of numbers, aligned right, and one that

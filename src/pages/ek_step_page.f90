@@ -9,7 +9,8 @@ module ek_step_page
    use ek_text_table, only: text_table_t, cell_of
    use ek_figure_data, only: figures_json
    use ek_figure, only: figure_t, new_figure, add_series, columns_of, as_both
-   use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, begin_table, add_cell, add_group, &
+   use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, put_fact, begin_table, &
+      add_cell, add_group, &
       end_table, add_page_figure => add_figure, set_data, page_text, page_number
    implicit none(type, external)
    private
@@ -37,24 +38,15 @@ contains
 
       if (title == '') call begin_page(page, name, name//', a study of '//deck)
       if (title /= '') call begin_page(page, title, name//', a study of '//deck)
-      call add('Kind', 'step_size')
-      call add('Case', case)
-      call add('Program', 'elastokin '//version)
+      call put_fact(names, values, 'Kind', 'step_size')
+      call put_fact(names, values, 'Case', case)
+      call put_fact(names, values, 'Program', 'elastokin '//version)
       call add_facts(page, names, values)
       if (message /= '') call trouble%add(message)
       call add_warnings(page, 'Figures', trouble)
       call add_errors(page, table)
       call add_figure(page, name, table)
       text = page_text(page)
-
-   contains
-
-      subroutine add(fact, value)
-         character(*), intent(in) :: fact, value
-         call names%add(fact)
-         call values%add(value)
-      end subroutine add
-
    end function step_page
 
    !> Adds the table of errors, by method.

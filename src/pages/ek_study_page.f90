@@ -12,7 +12,7 @@ module ek_study_page
    use ek_effect_table, only: add_effects
    use ek_factor_order, only: most_open, factor_order, strongest_names, effect_measure
    use ek_number_words, only: limits_text
-   use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, begin_table, add_cell, &
+   use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, put_fact, begin_table, add_cell, &
       add_numbers, add_group, begin_fold, end_fold, end_table, add_figure, set_data, page_text, page_number
    implicit none(type, external)
    private
@@ -43,19 +43,20 @@ contains
       title = study%title
       if (title == '') title = study%name
       call begin_page(page, title, study%name//', a study of '//study%deck)
-      call add('Kind', study%kind)
-      call add('Designs', str(study%designs))
-      call add('Factors', str(size(study%factors)))
-      call add('Responses', str(size(study%responses)))
-      call add('Case', study%case)
+      call put_fact(names, values, 'Kind', study%kind)
+      call put_fact(names, values, 'Designs', str(study%designs))
+      call put_fact(names, values, 'Factors', str(size(study%factors)))
+      call put_fact(names, values, 'Responses', str(size(study%responses)))
+      call put_fact(names, values, 'Case', study%case)
       if (allocated(study%start)) then
-         if (study%start /= '') call add('Start state of the deck', study%start)
+         if (study%start /= '') call put_fact(names, values, 'Start state of the deck', study%start)
       end if
-      call add('Failed', str(study%failed))
+      call put_fact(names, values, 'Failed', str(study%failed))
       name = 'Within all limits'
       if (any(study%responses%is_target)) name = 'Within the limits of the study'
-      if (any_limit(study, of_study=.true.)) call add(name, str(study%within)//' ('//share(study%within, study%designs)//')')
-      call add('Program', 'elastokin '//version)
+      if (any_limit(study, of_study=.true.)) call put_fact(names, values, name, str(study%within)//' ('// &
+         share(study%within, study%designs)//')')
+      call put_fact(names, values, 'Program', 'elastokin '//version)
       call add_facts(page, names, values)
       call add_warnings(page, plural(study%failed, 'design', 'designs')//' of '//str(study%designs)// &
          ' failed and '//trim(merge('is ', 'are', study%failed == 1))//' omitted below'//trim(merge( &
@@ -69,15 +70,6 @@ contains
       call add_moments(page, study)
       call add_effects(page, study)
       text = page_text(page)
-
-   contains
-
-      subroutine add(name, value)
-         character(*), intent(in) :: name, value
-         call names%add(name)
-         call values%add(value)
-      end subroutine add
-
    end function study_page
 
    !> Whether any response has a limit.
