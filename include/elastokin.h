@@ -189,8 +189,8 @@ const char *ek_body_name(ek_model *model, int k);   /* NULL outside the list */
 int ek_poses(ek_model *model, int row, int n, double *values);
 
 /* Computes derivatives of columns with respect to parameters of the deck, at one state of the last solution. The unit is
- * the unit of the column per unit of the number. The derivative of the state is exact; each column is differenced
- * along this derivative, and errors gives the estimated error. row is the position of the state in the result table.
+ * the unit of the column per unit of the number. The derivatives are accurate to about 1e-7 of the largest derivative of
+ * the column, and errors gives the estimated error of each. row is the position of the state in the result table.
  * values contains the n_numbers derivatives of the first column, then the n_numbers derivatives of the second column,
  * and so on. The case is not solved again. The derivatives account for the change of the state, of the static
  * equilibrium and of the trimmed preloads (`balance`). For a case with follow = 'arc', or with a method other than

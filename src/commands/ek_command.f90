@@ -255,8 +255,8 @@ module ek_command
       option_t('compare', '--out DIR', 'output folder (default: out)'), &
       option_t('compare', '--window what=half', 'as for report, if gradients are computed from CSV files'), &
       option_t('compare', '--threshold P%', &
-      'smallest listed change, in percent of the value in A or of the least span of a chart (default: 1%;'//indent// &
-      'without the option, standard output also lists the gradients that changed less)'), &
+      'smallest change that is listed, as a percentage of the value in A or of the least span of a chart;'//indent// &
+      'default: 1%; without it, standard output also lists gradients that changed less'), &
       option_t('compare', '--no-plots', 'with --static: a page without charts; gnuplot is not started'), &
       option_t('compare', '--plots', 'also draw the charts of the page as files in figures/, by gnuplot'), &
       option_t('compare', '--static', 'as for report'), &

@@ -28,7 +28,7 @@ module ek_command_line
    type :: option_t
       character(11) :: command    !! name of the command; '' for every command
       character(20) :: label  !! '--plot', '--out DIR': name and form of the value; N: integer of at least 1; a=b: may be repeated
-      character(200) :: help      !! description in the help of the command; '' if the line of usage suffices
+      character(240) :: help      !! description in the help of the command; '' if the line of usage suffices
    end type option_t
 
    type :: command_line_t

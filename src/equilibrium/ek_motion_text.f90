@@ -72,7 +72,7 @@ contains
          end if
       end do
       if (others > max_named) names = names//' and '//plural(others - max_named, 'body', 'bodies')//' more'
-      if (others > max_described) text = text//'; with it move '//names(3:)
+      if (others > max_described) text = text//'; the following bodies move with it: '//names(3:)
    end function motion_text
 
    !> Description of a motion. If a wheel steers, the description begins with the wheel; of a second wheel, it names only the wheel.
