@@ -3,7 +3,7 @@ module ek_target
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck, exit_convergence
-   use ek_text, only: str, quoted, suggestion
+   use ek_text, only: str, quoted
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_state, only: state_t, design_state, pack_state
@@ -12,7 +12,7 @@ module ek_target
    use ek_reach, only: failure_t, reach
    use ek_path, only: path_t
    use ek_branch, only: branch_t, new_branch, leave
-   use ek_quantity, only: unit_of
+   use ek_quantity, only: unit_of, column_hint
    use ek_table, only: table_t, column, column_range, row_count
    use ek_remark, only: swept_text
    use ek_sweep_table, only: sweep_table
@@ -245,7 +245,7 @@ contains
          return
       end if
       is_near = index(columns, name) > 0            ! as left_coil_length_mm contains coil_length
-      hint = suggestion(name, columns)
+      hint = column_hint(name, columns)
       if (hint == '' .and. any(is_near)) then
          hint = ' (columns with this in their name: '//listed(pack(columns, is_near .and. [(count(is_near(:k)) <= most, &
             k=1, size(columns))]), ', ')//repeat(', …', merge(1, 0, count(is_near) > most))//')'

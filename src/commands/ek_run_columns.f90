@@ -2,6 +2,7 @@
 module ek_run_columns
    use ek_error, only: error_t, message_list_t, fail, exit_usage
    use ek_text, only: quoted, suggestion_by_part, is_like
+   use ek_quantity, only: column_hint
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable
    use ek_lone_case, only: heads_on_rig
@@ -28,7 +29,7 @@ contains
       type(error_t), allocatable :: absent
       type(message_list_t) :: mistakes
       character(name_length), allocatable :: names(:), heads(:), all(:)
-      character(:), allocatable :: given
+      character(:), allocatable :: given, hint
       logical, allocatable :: is_known(:)
       integer :: c, k
 
@@ -50,8 +51,9 @@ contains
       end do
       do k = 1, size(names)
          if (is_known(k)) cycle
-         call mistakes%add(given//': the results have no column '//quoted(trim(names(k)))// &
-            suggestion_by_part(trim(names(k)), all))
+         hint = column_hint(trim(names(k)), all, has_all=.true.)
+         if (hint == '') hint = suggestion_by_part(trim(names(k)), all)
+         call mistakes%add(given//': the results have no column '//quoted(trim(names(k)))//hint)
       end do
       if (size(names) == 0) call mistakes%add(given//': no column is named')
       if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())

@@ -7,9 +7,9 @@ module ek_response
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t
-   use ek_text, only: str, quoted, nearest_name, suggestion, plural
+   use ek_text, only: str, quoted, nearest_name, plural
    use ek_rig_test, only: rig_tests
-   use ek_quantity, only: slope_unit, unit_of, head_with_unit
+   use ek_quantity, only: slope_unit, unit_of, head_with_unit, column_hint
    use ek_table, only: table_t, column_index, name_length
    use ek_sheet, only: sheet_t, read_sheet, column_of, mistakes_of
    use ek_sheet_columns, only: take_columns
@@ -336,12 +336,12 @@ contains
       if (column_index(table, column(:mark)//travel) > 0) over = column(:mark)//travel
    end function usual_over
 
-   !> The message about a missing column, with a suggestion.
+   !> The message about a missing column, with what a quantity requires, or with a suggestion.
    pure function no_column(name, heads) result(words)
       character(*), intent(in) :: name, heads(:)
       character(:), allocatable :: words
 
-      words = 'the results have no column '//quoted(name)//suggestion(name, heads)
+      words = 'the results have no column '//quoted(name)//column_hint(name, heads)
    end function no_column
 
 end module ek_response

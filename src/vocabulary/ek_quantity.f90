@@ -9,12 +9,14 @@
 !> this file. input/QUANTITIES.md defines the quantities.
 module ek_quantity
    use ek_kinds, only: wp
+   use ek_text, only: suggestion
    use ek_rig_test, only: rig_test_t, rig_test, of_travel, of_tilt, of_roll, of_steer, of_lateral, of_braking, of_traction, &
       of_aligning, of_vertical, of_table, of_grid
    use ek_unit_suffix, only: unit_of, unit_text, unit_ending, unit_size, slope_unit, head_with_unit
    implicit none(type, external)
    private
-   public :: name_length, quantity_t, quantity_named, needs_rate, held_name, label_of, without_phase, column_of_stem
+   public :: name_length, quantity_t, quantity_named, needs_rate, column_hint, held_name, label_of, without_phase
+   public :: column_of_stem
    public :: gradient_row_t, number_t, charted
    public :: unit_of, unit_text, unit_ending, unit_size, slope_unit, head_with_unit
 
@@ -436,6 +438,64 @@ contains
          if (iand(all_quantities(k)%needs, rate) /= 0) needs_rate = needs_rate .or. held_name(all_quantities(k)%name, 1) == name
       end do
    end function needs_rate
+
+   !> What follows a message about a missing column: the name for a wheel, what a quantity requires, or a similar name; '' otherwise.
+   pure function column_hint(name, candidates, has_all) result(words)
+      character(*), intent(in) :: name                     !! column, with or without 'left_' or 'right_'
+      character(*), intent(in) :: candidates(:)            !! the columns that exist
+      logical, intent(in), optional :: has_all             !! the case has quantities = 'all'
+      character(:), allocatable :: words, bare
+
+      bare = name(prefix_length(name) + 1:)
+      words = ''
+      if (any(candidates == bare)) words = bare
+      if (any(candidates == 'left_'//bare)) words = 'left_'//bare
+      if (words /= '' .and. words /= name) then
+         words = " (did you mean '"//words//"'?)"
+      else
+         words = needs_text(bare, has_all)
+         if (words == '') words = suggestion(name, candidates)
+      end if
+   end function column_hint
+
+   !> The length of the wheel's prefix of a column, 'left_' or 'right_'; 0 without.
+   pure integer function prefix_length(name) result(length)
+      character(*), intent(in) :: name
+
+      length = 0
+      if (index(name, 'left_') == 1) length = len('left_')
+      if (index(name, 'right_') == 1) length = len('right_')
+   end function prefix_length
+
+   !> What a model, or its case, must have for the column of a quantity: "(this column requires two wheels and quantities = 'all')";
+   !> '' for a name that is no quantity.
+   pure function needs_text(name, has_all) result(words)
+      character(*), intent(in) :: name                     !! column without the wheel's prefix
+      logical, intent(in), optional :: has_all             !! the case has quantities = 'all'
+      character(:), allocatable :: words
+      ! in the order of the conditions above; a matrix and rates are found if the others are there
+      character(*), parameter :: parts(*) = [character(44) :: '', 'two wheels', 'a tyre_rate', 'a steer_axis', 'a rack', &
+         'a ratio in &steering', '&axle with wheelbase and cg_height', "&axle with position = 'front'", &
+         "&axle with position = 'rear'", 'a mass in &axle', 'a mass in &axle and a tyre_rate', 'a tyre_width', &
+         'a front_overhang in &axle']
+      integer :: k, b, needs, basic
+
+      words = ''
+      basic = size(wheel_position) + size(steer_axis)
+      if (present(has_all)) basic = merge(size(all_quantities), basic, has_all)
+      do k = 1, size(all_quantities)
+         if (.not. any([held_name(all_quantities(k)%name, 1), held_name(all_quantities(k)%name, 2)] == name)) cycle
+         needs = all_quantities(k)%needs
+         if (k > basic) words = "quantities = 'all' of its case"
+         do b = size(parts), 2, -1
+            if (.not. btest(needs, b - 1)) cycle
+            if (words /= '') words = ' and '//words
+            words = trim(parts(b))//words
+         end do
+         if (words /= '') words = ' (this column requires '//words//')'
+         return
+      end do
+   end function needs_text
 
    !> A name in which '*' is replaced by the condition: load_held (1) or height_held (2).
    pure function held_name(name, condition) result(full)
