@@ -1,6 +1,6 @@
 # The wheel may contain the library of a finished build instead of compiling it for minutes: that of build/release, or of the folder in
 # the environment variable EK_FINISHED_BUILD (`none`: always compile). It must be the release build of these very sources: same version,
-# commit and options, no changed file, and no source newer than the library. Sets ek_finished_library; empty: compile.
+# commit and options, no changed file, and no source newer than the library and the program. Sets ek_finished_library; empty: compile.
 set(ek_finished_library "")
 set(ek_root "${CMAKE_CURRENT_LIST_DIR}/..")
 set(ek_wish "$ENV{EK_FINISHED_BUILD}")
@@ -40,8 +40,9 @@ else()
   endif()
   file(GLOB_RECURSE ek_sources "${ek_root}/src/*" "${ek_root}/include/*")
   foreach(ek_source ${ek_sources} "${ek_root}/CMakeLists.txt")
-    if("${ek_source}" IS_NEWER_THAN "${ek_library}")
-      set(ek_fault "${ek_source} is newer than its library")
+    # a source of the commands alone is linked into the program, not into the library
+    if("${ek_source}" IS_NEWER_THAN "${ek_library}" AND "${ek_source}" IS_NEWER_THAN "${ek_program}")
+      set(ek_fault "${ek_source} is newer than its library and its program")
     endif()
   endforeach()
 endif()
