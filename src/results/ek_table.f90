@@ -103,7 +103,8 @@ contains
          if (last < name_length) then
             if (names(place) (last + 1:last + 1) /= ' ') cycle
          end if
-         if (names(place) == name) return
+         if (names(place) (:last) /= name(:last)) cycle
+         if (len_trim(names(place)) == last) return
       end do
    end function name_index
 

@@ -19,7 +19,7 @@
 !> start state, so that derivatives contain the change of F and of the heights.
 module ek_start
    use ek_kinds, only: wp, millimetre
-   use ek_noise, only: is_noise, solved
+   use ek_noise, only: is_noise, noise_of, solved
    use ek_suspension, only: suspension_t
    use ek_adjust, only: is_adjusted
    use ek_state, only: state_t, inputs_t, design_state
@@ -320,8 +320,7 @@ contains
    !> Whether forces are only rounding noise.
    pure logical function are_noise(forces)
       real(wp), intent(in) :: forces(:)                    !! N
-      integer :: k
-      are_noise = all([(is_noise(forces(k), 'vertical_force_n', 0.0_wp, solved), k=1, size(forces))])
+      are_noise = all(abs(forces) <= noise_of('vertical_force_n', 0.0_wp, solved))       ! false for a force that is not a number
    end function are_noise
 
    !> Sets the forces of the loads of the start state.
