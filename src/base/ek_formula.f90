@@ -42,7 +42,8 @@ contains
       mistake = ''
       at = 1
       call read_sum(text, at, formula, mistake)
-      if (mistake == '' .and. next(text, at) /= ' ') mistake = 'expected an operator, found '//text(at:)
+      if (mistake /= '') return
+      if (next(text, at) /= ' ') mistake = 'expected an operator, found '//text(at:)
    end subroutine read_formula
 
    !> The next character that is not a blank; ' ' at the end of the text.
