@@ -54,7 +54,9 @@ contains
          space%trial = suspension
       end if
       values = suspension%adjusters(adjusters)%value
-      allocate (angles(size(values)), moved(size(values)), jacobian(size(values), size(values)), pivots(size(values)))
+      allocate (angles(size(values)), moved(size(values)), jacobian(size(values), size(values)), pivots(size(values)), &
+         change(size(values)))
+      worst = 0.0_wp
       before = huge(before)
       failure%reason = not_aligned
       do iteration = 1, max_iterations
@@ -73,7 +75,7 @@ contains
             if (.not. is_found) return
             jacobian(:, k) = (moved - angles)/step
          end do
-         change = target - angles
+         change(:) = target - angles
          call dgesv(size(values), 1, jacobian, size(values), pivots, change, size(values), info)
          failure%adjuster = 0
          if (info /= 0 .or. .not. maxval(abs(change)) < 1.0_wp) exit      ! the adjusters do not move the angles independently

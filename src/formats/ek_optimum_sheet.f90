@@ -36,7 +36,8 @@ contains
       is_optimum_sheet = .false.
       if (lines%count < least) return
       separator = separator_of(lines)
-      if (has_headings(lines%line(1), separator) .or. has_headings(lines%line(2), separator)) return
+      if (has_headings(lines%line(1), separator)) return
+      if (has_headings(lines%line(2), separator)) return
       found = 0
       do k = 1, lines%count
          call split_row(lines%line(k), separator, row)

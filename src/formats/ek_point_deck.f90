@@ -12,7 +12,7 @@ module ek_point_deck
       damper_inner, damper_outer, kingpin_low, kingpin_top, panhard_chassis, panhard_axle, &
       triangle_chassis, triangle_axle
    use ek_point_kind, only: kinds, double_wishbone, mcpherson, trailing_arm, four_link_axle, three_link_axle, is_solid, find_kind, &
-      incomplete, check_rod, nearest
+      incomplete, check_rod, nearest_text
    use ek_point_table, only: point_table_t, not_a_point
    use ek_point_set, only: choose_points
    use ek_frame_votes, only: point_set_t, half_t, wish_t, frame_t, find_frame
@@ -248,7 +248,7 @@ contains
                call writing%deck%comment('  line '//str(this%line)//': '//trim(this%name)//' is not a point')
             else if (this%point == -1) then
                call writing%deck%comment('  line '//str(this%line)//': '//trim(this%name)//': name not recognised'// &
-                  nearest(trim(this%name)))
+                  nearest_text(trim(this%name)))
             else
                call writing%deck%comment('  line '//str(this%line)//': '//trim(this%name)//why_unused(this%point, half))
             end if

@@ -13,7 +13,7 @@ module ek_point_kind
    implicit none(type, external)
    private
    public :: kinds, double_wishbone, mcpherson, five_link, trailing_arm, four_link_axle, three_link_axle, de_dion, is_solid, &
-      find_kind, incomplete, check_rod, nearest
+      find_kind, incomplete, check_rod, nearest_text
 
    integer, parameter :: most_needed = 14
 
@@ -109,19 +109,19 @@ contains
          if (table%points(k)%point /= -1) cycle
          told = told + 1
          if (told <= 6) text = text//new_line('a')//'  line '//str(table%points(k)%line)//': '// &
-            shown(trim(table%points(k)%name))//' is not recognised'//nearest(trim(table%points(k)%name))
+            shown(trim(table%points(k)%name))//' is not recognised'//nearest_text(trim(table%points(k)%name))
       end do
       if (told > 6) text = text//new_line('a')//'  and '//str(told - 6)//' more names'
    end function incomplete
 
    !> Phrase with the nearest known name; '' if there is none.
-   function nearest(name) result(words)
+   function nearest_text(name) result(words)
       character(*), intent(in) :: name
       character(:), allocatable :: words
 
       words = nearest_point(name)
       if (words /= '') words = '; nearest known name: '//words
-   end function nearest
+   end function nearest_text
 
    !> Checks that the axle is known, if it has tie rods: they end on a rack of a front axle, and on the chassis of a rear axle.
    subroutine check_rod(points, kind, flaws)

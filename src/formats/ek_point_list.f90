@@ -121,7 +121,7 @@ contains
       character(:), allocatable :: path
       type(table_point_t) :: point
       real(wp) :: unit
-      logical :: is_triple
+      logical :: is_triple, is_number
       integer :: k, last, others
 
       last = 0
@@ -131,6 +131,8 @@ contains
       if (flaws%count() > 0) return
       do k = 1, tree%used
          call triple_at(tree, k, path, point%at, is_triple)
+         is_number = .false.
+         if (k > last) is_number = is_car_number(tree, k)
          if (is_triple) then
             point%line = tree%leaves(k)%line
             call take_path(path, point)
@@ -142,7 +144,7 @@ contains
             call take_length(unit, tree%leaves(k)%line, table, flaws)
             if (.not. unit > 0.0_wp) call flaws%add(tree%leaves(k)%line, 'expected a unit of length for '// &
                shown(trim(tree%leaves(k)%path))//', found '//shown(tree%leaves(k)%text))
-         else if (k > last .and. is_car_number(tree, k)) then
+         else if (is_number) then
             call take_path(without_index(trim(tree%leaves(k)%path)), point)
             last = k + count_of(car_number_of(trim(point%name))) - 1
             call add_car_number(car_number_t(car_number_of(trim(point%name)), point%axle, &
