@@ -20,6 +20,11 @@ fortran_is_tidy() {
     echo 'these lines name a terminal or a colour: src/figures/ek_gnuplot.f90 has them by role'
     return 1
   fi
+  # What the release build warned of: in a fresh clone its log has the whole program
+  if grep -nE -B6 'Warning: .*\[-W' build/release/build.log | grep -E '^[0-9]+-.*/src/[a-z]+/[a-z_0-9]+\.(f|F)90:[0-9]+'; then
+    echo 'the compiler warned of these lines (build/release/build.log)'
+    return 1
+  fi
   if [ ! -x "$tools/bin/fortitude" ]; then
     if ! python3 -m venv "$tools" || ! "$tools/bin/pip" install --quiet fortitude-lint==0.10.0; then
       skip "fortitude-lint could not be installed from PyPI"

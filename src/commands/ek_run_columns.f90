@@ -26,7 +26,6 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! exit_usage: all names that match no column
       character(*), intent(in), optional :: option      !! name of the option with the list, for messages; default --columns
       character(*), intent(in), optional :: others(:)   !! further columns that may be named
-      type(error_t), allocatable :: absent
       type(message_list_t) :: mistakes
       character(name_length), allocatable :: names(:), heads(:), all(:)
       character(:), allocatable :: given, hint
