@@ -58,7 +58,8 @@ threads_share_nothing() {
     -DCMAKE_Fortran_FLAGS_THREADS='-O1 -g -fsanitize=thread' || return 1
   TSAN_OPTIONS='detect_deadlocks=0 exitcode=0' cmake --build build/ci/threads --target test_threads --parallel "$EK_JOBS" || return 1
   nm "$program" | grep GOMP_parallel || { skip "no OpenMP"; return; }
-  printf 'race:%s\n' complete_design put_chunk take_chunk write_tables >"$logs/one_at_a_time.txt"
+  # one thread at a time runs these: in a critical region, which the sanitizer does not see in libgomp
+  printf 'race:%s\n' complete_design put_chunk take_chunk write_tables begin_words >"$logs/one_at_a_time.txt"
   TSAN_OPTIONS="detect_deadlocks=0 exitcode=0 suppressions=$logs/one_at_a_time.txt" OPENBLAS_NUM_THREADS=1 "$program" \
     >"$logs/threads.txt" 2>&1
   tail -n 2 "$logs/threads.txt"
