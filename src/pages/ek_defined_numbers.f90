@@ -57,7 +57,7 @@ contains
       do k = 1, size(numbers%rows)
          call put(definitions(numbers%rows(k)), trim(numbers%of(k)), decimal(numbers%values(k)))
       end do
-      all = rows_of(numbers%program)
+      allocate (all, source=rows_of(numbers%program))
       do k = 1, size(all)
          if (definitions(all(k))%formula == '') call put(definitions(all(k)), '', '')
       end do
@@ -97,7 +97,7 @@ contains
          call add_definition(json, definitions(numbers%rows(k)))
          call json%close('}')
       end do
-      all = rows_of(numbers%program)
+      allocate (all, source=rows_of(numbers%program))
       do k = 1, size(all)
          if (definitions(all(k))%formula /= '') cycle
          call json%open('{')

@@ -133,7 +133,7 @@ contains
 
       measurement%file = path
       measurement%test = test
-      allocate (measurement%x(0), measurement%channels(0))
+      allocate (measurement%x(0), measurement%channels(0), used(0))
       call read_sheet(path, sheet, error)
       if (allocated(error)) return
       if (sheet%head_mistakes%count() == 0) call choose_channels(sheet, test, kind, channels, used)
