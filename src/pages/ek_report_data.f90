@@ -43,7 +43,7 @@ contains
       integer, allocatable :: cards(:)
       integer :: k
 
-      cards = summary_numbers(report%numbers, report%axle)
+      allocate (cards, source=summary_numbers(report%numbers, report%axle))
       json%is_one_line = .true.
       call json%open('{')
       call json%item('format', json_string(format_name))

@@ -70,7 +70,8 @@ contains
       has_views = has_figures(report)
       if (has_views) has_views = report%figures(1)%name == 'views' .and. (report%has_pictures .or. .not. report%is_static)
       shows_first = has_view_in_space(report) .and. .not. has_view_above
-      shows_turntable = has_turntable(report) .and. has_picture(report)      ! otherwise it is the first view
+      shows_turntable = has_turntable(report)
+      if (shows_turntable) shows_turntable = has_picture(report)              ! otherwise it is the first view
       if (.not. (shows_first .or. shows_turntable .or. has_gif .or. has_views)) return
       call begin_section(page, 'picture', 'The suspension')
       if (shows_first) call add_view_in_space(page, report)
@@ -97,7 +98,8 @@ contains
          return
       end if
       path = join_path(report%folder, 'figures/'//name//'.svg')
-      if (.not. report%has_pictures .or. .not. file_exists(path)) return
+      if (.not. report%has_pictures) return
+      if (.not. file_exists(path)) return
       call read_whole(path, svg, error)
       if (.not. allocated(error)) call add_picture(page, svg, title, caption)
    end subroutine add_panels
