@@ -77,7 +77,7 @@ contains
       logical, allocatable :: is_shown(:)
       integer :: k
 
-      is_shown = [(kept_number(report%numbers, k) == 0, k=1, size(report%numbers))]
+      allocate (is_shown, source=[(kept_number(report%numbers, k) == 0, k=1, size(report%numbers))])
       is_shown(summary_numbers(report%numbers, report%axle)) = .false.
       if (.not. any(is_shown)) return
       call begin_section(page, 'key-numbers', 'K&C metrics', is_printed=.false., has_text=.true.)
