@@ -77,6 +77,7 @@ contains
       character(:), allocatable :: line, effects
       integer :: r
 
+      line = ''
       do r = 2, size(this%results)
          call find_items(this, r, items)
          effects = effects_text(items)

@@ -51,6 +51,7 @@ contains
       character(:), allocatable :: line
       integer :: r
 
+      line = ''
       do r = 1, size(models)
          if (r == 1) line = sentence_of(models(1), threshold)
          if (r > 1) line = change_sentence(models(1), models(r), threshold)
