@@ -34,8 +34,9 @@ contains
 
       mark = word
       if (.not. quiet) then
-         k = findloc(words, word, dim=1)
-         if (k > 0 .and. has_colours()) then
+         k = 0
+         if (has_colours()) k = findloc(words, word, dim=1)
+         if (k > 0) then
             call write_standard_error(achar(27)//'['//codes(k)//'m'//mark//achar(27)//'[0m  '//printable(text)//new_line('a'))
          else
             call write_standard_error(mark//'  '//printable(text)//new_line('a'))
