@@ -21,7 +21,8 @@ module ek_point_name
       trailing_rear, rack_centre, damper_top, damper_low, spring_top, spring_low, kingpin_low, kingpin_top, upper_rod_chassis, &
       upper_rod_axle, lower_rod_chassis, lower_rod_axle, panhard_chassis, panhard_axle, drag_link_chassis, drag_link_crank, &
       crank_tie_rod, crank_axle, triangle_chassis, triangle_axle, axle_pivot, watt_left_chassis, watt_left_lever, &
-      watt_right_chassis, watt_right_lever
+      watt_right_chassis, watt_right_lever, axle_guide, drag_link_knuckle, arm_ball, upper_lateral_in, upper_lateral_out, &
+      lower_lateral_in, lower_lateral_out
 
    integer, parameter :: wheel_centre = 1, contact_patch = 2, lca_front = 3, lca_rear = 4, lower_ball = 5, uca_front = 6, &
       uca_rear = 7, upper_ball = 8, tie_inner = 9, tie_outer = 10, toe_inner = 11, toe_outer = 12, strut_top = 13, &
@@ -33,8 +34,12 @@ module ek_point_name
    integer, parameter :: kingpin_low = 36, kingpin_top = 37, upper_rod_chassis = 38, upper_rod_axle = 39, &
       lower_rod_chassis = 40, lower_rod_axle = 41, panhard_chassis = 42, panhard_axle = 43, drag_link_chassis = 44, &
       drag_link_crank = 45, crank_tie_rod = 46, crank_axle = 47, triangle_chassis = 48, triangle_axle = 49, &
-      axle_pivot = 50, watt_left_chassis = 51, watt_left_lever = 52, watt_right_chassis = 53, watt_right_lever = 54
-   integer, parameter :: point_count = 54
+      axle_pivot = 50, watt_left_chassis = 51, watt_left_lever = 52, watt_right_chassis = 53, watt_right_lever = 54, &
+      axle_guide = 55, drag_link_knuckle = 56
+   !> Points of a trailing arm on two lateral links.
+   integer, parameter :: arm_ball = 57, upper_lateral_in = 58, upper_lateral_out = 59, lower_lateral_in = 60, &
+      lower_lateral_out = 61
+   integer, parameter :: point_count = 61
    integer, parameter :: unused_point = 0      !! a known part that is not read, as an anti-roll bar
    character(20), parameter :: point_names(point_count) = [character(20) :: 'wheel_centre', 'contact_patch', 'lca_front', &
       'lca_rear', 'lower_ball_joint', 'uca_front', 'uca_rear', 'upper_ball_joint', 'tie_rod_inner', 'tie_rod_outer', &
@@ -45,7 +50,8 @@ module ek_point_name
       'kingpin_low', 'kingpin_top', 'upper_rod_chassis', 'upper_rod_axle', 'lower_rod_chassis', 'lower_rod_axle', &
       'panhard_chassis', 'panhard_axle', 'drag_link_chassis', 'drag_link_crank', 'crank_tie_rod', 'crank_axle', &
       'triangle_chassis', 'triangle_axle', 'axle_pivot', 'watt_left_chassis', 'watt_left_lever', 'watt_right_chassis', &
-      'watt_right_lever']
+      'watt_right_lever', 'axle_guide', 'drag_link_knuckle', 'arm_ball', 'upper_lateral_inner', 'upper_lateral_outer', &
+      'lower_lateral_inner', 'lower_lateral_outer']
 
    !> A set of letters that stands for a point.
    type :: rule_t
