@@ -9,10 +9,10 @@ module ek_point_deck
    use ek_hardpoint, only: left_point, right_point, point_pair
    use ek_point_name, only: point_count, point_names, unused_point, wheel_centre, contact_patch, lower_ball, upper_ball, &
       tie_inner, tie_outer, toe_inner, toe_outer, strut_top, push_low, push_top, rocker_pivot, rocker_axis, rack_centre, &
-      damper_inner, damper_outer, kingpin_low, kingpin_top, panhard_chassis, panhard_axle, &
-      triangle_chassis, triangle_axle
+      damper_inner, damper_outer, damper_top, damper_low, spring_top, spring_low, kingpin_low, kingpin_top, &
+      panhard_chassis, panhard_axle, triangle_chassis, triangle_axle
    use ek_point_kind, only: kinds, double_wishbone, mcpherson, trailing_arm, lateral_arm, by_links, by_triangle, is_solid, &
-      has_knuckles, find_kind, incomplete, check_rod, nearest
+      has_knuckles, find_kind, incomplete, check_rod, check_ends, nearest
    use ek_point_table, only: point_table_t, not_a_point
    use ek_point_set, only: choose_points
    use ek_frame_votes, only: point_set_t, half_t, wish_t, frame_t, find_frame
@@ -54,6 +54,8 @@ contains
          call flaws%add(0, frame%problem)
          return
       end if
+      if (kind > 0) call check_ends(points%half(frame%half), frame%forward, kind, flaws)
+      if (flaws%count() > 0) return
       writing%file = path(index(path, '/', back=.true.) + 1:)
       writing%is_rear = frame%forward == -1
       call choose_unit(frame%length, writing)
@@ -285,10 +287,13 @@ contains
       type(half_t), intent(in) :: half
       character(:), allocatable :: words
 
-      words = ': springs, dampers, masses and bars are not read'
-      if (point == unused_point) return
-      if (any([push_low, push_top, rocker_pivot] == point) .and. .not. half%has(rocker_axis)) &
+      if (any([unused_point, damper_top, damper_low, damper_inner, damper_outer, spring_top, spring_low] == point)) then
+         words = ': springs, dampers, masses and bars are not read'
+      else if (any([push_low, push_top, rocker_pivot] == point) .and. .not. half%has(rocker_axis)) then
          words = ': the axis of the rocker needs a second point, rocker_axis'
+      else
+         words = ': not a point of this kind of suspension'
+      end if
    end function why_unused
 
    subroutine put_model(title, writing)

@@ -1,5 +1,6 @@
 !> Kinds of suspension that a set of hardpoints may be: the points that each kind needs, and what is missing.
 module ek_point_kind
+   use ek_kinds, only: wp
    use ek_text, only: str
    use ek_flaws, only: flaws_t, shown
    use ek_point_name, only: point_count, point_names, nearest_point, wheel_centre, lca_front, lca_rear, lower_ball, uca_front, &
@@ -10,11 +11,12 @@ module ek_point_kind
       watt_left_chassis, watt_left_lever, watt_right_chassis, watt_right_lever, axle_guide, drag_link_knuckle, arm_ball, &
       upper_lateral_in, upper_lateral_out, lower_lateral_in, lower_lateral_out
    use ek_point_table, only: point_table_t
+   use ek_point_vote, only: half_t
    use ek_frame_votes, only: point_set_t
    implicit none(type, external)
    private
    public :: kinds, double_wishbone, mcpherson, five_link, trailing_arm, lateral_arm, is_solid, has_knuckles, find_kind, &
-      incomplete, check_rod, nearest
+      incomplete, check_rod, check_ends, nearest
    public :: by_links, by_triangle, by_watt, by_slide, by_pipe, crank_and_rod, crank_and_rods, knuckle_link
 
    integer, parameter :: most_needed = 14
@@ -53,6 +55,8 @@ module ek_point_kind
       kind_t('solid four-link', 'Solid axle, four links', guide=by_links, steering=crank_and_rod, &
       needs=[wheel_centre, kingpin_low, kingpin_top, upper_rod_chassis, upper_rod_axle, lower_rod_chassis, lower_rod_axle, &
       tie_outer, drag_link_chassis, drag_link_crank, crank_tie_rod, crank_axle, 0, 0]), &
+      kind_t('live four-link', 'Solid axle, four links', guide=by_links, &
+      needs=[wheel_centre, upper_rod_chassis, upper_rod_axle, lower_rod_chassis, lower_rod_axle, 0, 0, 0, 0, 0, 0, 0, 0, 0]), &
       kind_t('solid three-link', 'Solid axle, two links and triangle', guide=by_triangle, &
       needs=[wheel_centre, lower_rod_chassis, lower_rod_axle, triangle_chassis, triangle_axle, 0, 0, 0, 0, 0, 0, 0, 0, 0]), &
       kind_t('steered three-link', 'Steered solid axle, two links and triangle', guide=by_triangle, steering=crank_and_rods, &
@@ -174,5 +178,33 @@ contains
       call flaws%add(0, 'the file does not name the axle; give --axle front (the tie rods end on a rack) or --axle rear (they '// &
          'end on the chassis)')
    end subroutine check_rod
+
+   !> Checks the ends of the rods of a solid axle without steering: along the car, the end on the tube is nearer to the wheel centre
+   !> than the end on the chassis. Otherwise, the names are exchanged, or front ends are on the tube.
+   subroutine check_ends(half, forward, kind, flaws)
+      type(half_t), intent(in) :: half
+      integer, intent(in) :: forward                   !! column
+      integer, intent(in) :: kind
+      type(flaws_t), intent(inout) :: flaws
+      integer, parameter :: tube(2) = [lower_rod_axle, upper_rod_axle], chassis(2) = [lower_rod_chassis, upper_rod_chassis]
+      integer :: k
+
+      if (kinds(kind)%guide /= by_links .or. has_knuckles(kind)) return
+      do k = 1, size(tube)
+         if (from_wheel(tube(k)) < from_wheel(chassis(k))) cycle
+         call flaws%add(half%line(tube(k)), 'expected the end of the rod on the axle nearer to the wheel centre than the end '// &
+            'on the chassis (line '//str(half%line(chassis(k)))//'), along the car; name the ends '//trim(point_names(tube(k)))// &
+            ' and '//trim(point_names(chassis(k))))
+      end do
+
+   contains
+
+      !> Distance of a point from the wheel centre along the car.
+      pure real(wp) function from_wheel(point)
+         integer, intent(in) :: point
+         from_wheel = abs(half%at(abs(forward), point) - half%at(abs(forward), wheel_centre))
+      end function from_wheel
+
+   end subroutine check_ends
 
 end module ek_point_kind

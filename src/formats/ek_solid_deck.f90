@@ -128,10 +128,14 @@ contains
 
       select case (kinds(kind)%guide)
       case (by_links)
-         call put_joint('upper_rod', 'distance', 'chassis', 'axle', [upper_rod_chassis, upper_rod_axle], writing)
          call put_joint('lower_rod', 'distance', 'chassis', 'axle', [lower_rod_chassis, lower_rod_axle], writing)
          if (all(writing%is_written(panhard_points))) call put_joint('panhard_rod', 'distance', 'chassis', &
             'axle', panhard_points, writing)
+         if (all(writing%is_written(panhard_points)) .and. kinds(kind)%steering == 0) then
+            call put_mean_length(writing)
+         else
+            call put_joint('upper_rod', 'distance', 'chassis', 'axle', [upper_rod_chassis, upper_rod_axle], writing)
+         end if
       case (by_triangle)
          call put_joint('lower_rod', 'distance', 'chassis', 'axle', [lower_rod_chassis, lower_rod_axle], writing)
          call put_body('triangle', writing)
@@ -152,6 +156,26 @@ contains
          call put_joint('panhard_rod', 'distance', 'chassis', 'axle', panhard_points, writing)
       end select
    end subroutine put_guide
+
+   !> Writes the upper rods as their mean length: four rigid rods and a Panhard rod would leave one motion.
+   subroutine put_mean_length(writing)
+      type(writing_t), intent(inout) :: writing
+
+      call writing%deck%comment('assumed: only the mean length of the upper rods is constant, because four rigid rods and a '// &
+         'Panhard rod lock the axle in roll')
+      call writing%deck%begin('measure')
+      call writing%deck%word('name', 'upper_length')
+      call writing%deck%word('type', 'distance')
+      call writing%deck%words('bodies', 'chassis', 'axle')
+      call writing%deck%words('at', trim(point_names(upper_rod_chassis)), trim(point_names(upper_rod_axle)))
+      call writing%deck%end()
+      call writing%deck%begin('joint')
+      call writing%deck%word('name', 'upper_rods')
+      call writing%deck%word('type', 'coupler')
+      call writing%deck%words('measures', 'left_upper_length', 'right_upper_length')
+      call writing%deck%numbers('ratios', [1.0_wp, 1.0_wp])
+      call writing%deck%end()
+   end subroutine put_mean_length
 
    !> Writes the tie rod between the knuckles, and the bell crank with the drag link. The tie rod cannot spin in its right joint.
    !> The bell crank moves it by its pin, in a plane across the rod.
