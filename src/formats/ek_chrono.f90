@@ -1,97 +1,23 @@
 !> Suspensions of Project Chrono (JSON of Chrono::Vehicle): hardpoints, springs, stops and bushings of an axle. The format defines
 !> the frame: x forward, y left, z up, in m, for the left half. It does not give the axle, the tyre and the road.
 !>
-!> Read are the templates of `templates`, by the names of their points. ek_chrono_parts reads springs and bushings.
+!> The templates and the names of their points are in ek_chrono_template. ek_chrono_parts reads springs and bushings.
 module ek_chrono
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
-   use ek_text, only: str, did_you_mean
+   use ek_text, only: str
    use ek_flaws, only: flaws_t, shown
    use ek_hardpoint, only: single_point
    use ek_json_tree, only: json_tree_t, parse_json, find_leaf, has_branch, branch_line
-   use ek_point_name, only: wheel_centre, lca_front, lca_rear, lower_ball, uca_front, uca_rear, upper_ball, tie_inner, tie_outer, &
-      strut_top, strut_low, arm_inner, arm_outer, upper_front_in, upper_front_out, upper_rear_in, upper_rear_out, lower_in, &
-      lower_out, trailing_front, trailing_rear, damper_top, damper_low, spring_top, spring_low, kingpin_low, kingpin_top, &
-      upper_rod_chassis, upper_rod_axle, lower_rod_chassis, lower_rod_axle, panhard_chassis, panhard_axle, &
-      drag_link_chassis, drag_link_crank, crank_tie_rod, crank_axle, triangle_chassis, triangle_axle, axle_pivot, &
-      watt_left_chassis, watt_left_lever, watt_right_chassis, watt_right_lever, point_names
+   use ek_point_name, only: point_names, strut_top, strut_low, damper_top, damper_low, spring_top, spring_low
    use ek_point_table, only: point_table_t, table_point_t
    use ek_axle_facts, only: axle_facts_t, spring_slot, damper_slot, upper_slot, lower_slot, rod_slot
+   use ek_chrono_template, only: templates, find_template, is_place_of, places, why_not_read, arms, strut, links, arm, solid, &
+      watt, leaf, lateral, toe_bar, cranks
    use ek_chrono_parts, only: take_spring, take_bushing, take_axes, take_angle
    implicit none(type, external)
    private
    public :: is_json, is_chrono, parse_chrono
-
-   !> A point of a family of templates: its path in the file.
-   type :: place_t
-      character(18) :: family
-      integer :: point
-      character(48) :: path
-   end type place_t
-
-   !> A template: the family whose points it has, the key of the moved end of springs, and their body in the deck.
-   type :: template_t
-      character(18) :: family
-      character(16) :: end_key
-      character(14) :: body
-   end type template_t
-
-   character(*), parameter :: arms = 'DoubleWishbone', strut = 'MacPhersonStrut', links = 'MultiLink', arm = 'SemiTrailingArm', &
-      solid = 'SolidAxle', triangle = 'SolidThreeLinkAxle', watt = 'DeDionAxle', every = ''
-   character(22), parameter :: template_names(8) = [character(22) :: arms, 'DoubleWishboneReduced', strut, links, arm, solid, &
-      triangle, watt]
-   type(template_t), parameter :: templates(8) = [ &
-      template_t(arms, 'Location Arm', 'lca'), &
-      template_t(arms, 'Location Upright', 'carrier'), &
-      template_t(strut, 'Location Upright', 'carrier'), &
-      template_t(links, 'Location Link', 'trailing_link'), &
-      template_t(arm, 'Location Arm', 'arm'), &
-      template_t(solid, 'Location Axle', 'axle'), &
-      template_t(triangle, 'Location Axle', 'axle'), &
-      template_t(watt, 'Location Axle', 'axle')]
-   !> Families without a tie rod on the chassis.
-   character(*), parameter :: rodless(4) = [character(18) :: arm, solid, triangle, watt]
-
-   character(*), parameter :: upper_arm = 'Upper Control Arm/Location ', lower_arm = 'Lower Control Arm/Location ', &
-      of_watt = 'Watt Mechanism/Location '
-   type(place_t), parameter :: places(*) = [ &
-      place_t(every, wheel_centre, 'Spindle/COM'), &
-      place_t(arms, uca_front, upper_arm//'Chassis Front'), place_t(arms, uca_rear, upper_arm//'Chassis Back'), &
-      place_t(arms, upper_ball, upper_arm//'Upright'), &
-      place_t(arms, lca_front, lower_arm//'Chassis Front'), place_t(arms, lca_rear, lower_arm//'Chassis Back'), &
-      place_t(arms, lower_ball, lower_arm//'Upright'), &
-      place_t(strut, lca_front, 'Control Arm/Location Chassis Front'), &
-      place_t(strut, lca_rear, 'Control Arm/Location Chassis Back'), place_t(strut, lower_ball, 'Control Arm/Location Upright'), &
-      place_t(strut, strut_low, 'Spring/Location Upright'), place_t(strut, strut_top, 'Spring/Location Chassis'), &
-      place_t(links, upper_front_in, 'Upper Arm/Location Chassis Front'), &
-      place_t(links, upper_front_out, 'Upper Arm/Location Upright'), &
-      place_t(links, upper_rear_in, 'Upper Arm/Location Chassis Back'), &
-      place_t(links, upper_rear_out, 'Upper Arm/Location Upright'), &
-      place_t(links, lower_in, 'Lateral/Location Chassis'), place_t(links, lower_out, 'Lateral/Location Upright'), &
-      place_t(links, trailing_front, 'Trailing Link/Location Chassis'), &
-      place_t(links, trailing_rear, 'Trailing Link/Location Upright'), &
-      place_t(arm, arm_inner, 'Trailing Arm/Location Chassis Inner'), &
-      place_t(arm, arm_outer, 'Trailing Arm/Location Chassis Outer'), &
-      place_t(solid, kingpin_low, 'Knuckle/Location Lower'), place_t(solid, kingpin_top, 'Knuckle/Location Upper'), &
-      place_t(solid, upper_rod_chassis, 'Upper Link/Location Chassis'), &
-      place_t(solid, upper_rod_axle, 'Upper Link/Location Axle'), &
-      place_t(solid, lower_rod_chassis, 'Lower Link/Location Chassis'), &
-      place_t(solid, lower_rod_axle, 'Lower Link/Location Axle'), &
-      place_t(solid, panhard_chassis, 'Trackbar/Location Chassis'), place_t(solid, panhard_axle, 'Trackbar/Location Axle'), &
-      place_t(solid, tie_outer, 'Tierod/Location Knuckle'), &
-      place_t(solid, drag_link_chassis, 'Draglink/Location Chassis'), &
-      place_t(solid, drag_link_crank, 'Draglink/Location Bell Crank'), &
-      place_t(solid, crank_tie_rod, 'Bell Crank/Location Tierod'), place_t(solid, crank_axle, 'Bell Crank/Location Axle'), &
-      place_t(triangle, triangle_chassis, 'Triangular Link/Location Chassis'), &
-      place_t(triangle, triangle_axle, 'Triangular Link/Location Axle'), &
-      place_t(triangle, lower_rod_chassis, 'Longitudinal Link/Location Chassis'), &
-      place_t(triangle, lower_rod_axle, 'Longitudinal Link/Location Axle'), &
-      place_t(watt, axle_pivot, 'Axle Tube/Location Connector Chassis'), &
-      place_t(watt, watt_left_chassis, of_watt//'Left Link to Chassis'), &
-      place_t(watt, watt_left_lever, of_watt//'Left Link to Center'), &
-      place_t(watt, watt_right_chassis, of_watt//'Right Link to Chassis'), &
-      place_t(watt, watt_right_lever, of_watt//'Right Link to Center'), &
-      place_t(every, tie_inner, 'Tierod/Location Chassis'), place_t(every, tie_outer, 'Tierod/Location Upright')]
 
 contains
 
@@ -124,22 +50,19 @@ contains
       allocate (table%points(size(places) + 4))
       call parse_json(text, tree, flaws)
       if (flaws%count() > 0) return
-      call find_template(tree, template, flaws)
+      call take_template(tree, template, flaws)
       if (flaws%count() > 0) return
-      associate (family => templates(template)%family)
-         do k = 1, size(places)
-            if (places(k)%family /= every .and. places(k)%family /= family) cycle
-            if (places(k)%family == every .and. index(places(k)%path, 'Tierod') == 1 .and. any(rodless == family)) cycle
-            if (index(places(k)%path, 'Trackbar') == 1 .and. .not. has_branch(tree, 'Trackbar')) cycle
-            if (branch_line(tree, trim(places(k)%path)//'/') == 0) then
-               call missing%add(trim(places(k)%path))
-            else
-               call take_point(tree, places(k)%point, trim(places(k)%path), table, flaws)
-            end if
-         end do
-      end associate
+      do k = 1, size(places)
+         if (.not. is_place_of(k, template)) cycle
+         if (index(places(k)%path, 'Trackbar') == 1 .and. .not. has_branch(tree, 'Trackbar')) cycle
+         if (branch_line(tree, trim(places(k)%path)//'/') == 0) then
+            call missing%add(trim(places(k)%path))
+         else
+            call take_point(tree, places(k)%point, trim(places(k)%path), table, flaws)
+         end if
+      end do
       if (missing%count() > 0) then            ! the cause alone: of another template, springs are elsewhere, too
-         call flaws%add(0, missing_points(missing, trim(template_names(template))))
+         call flaws%add(0, missing_points(missing, trim(templates(template)%name)))
          return
       end if
       table%length = 3                       ! m
@@ -151,7 +74,7 @@ contains
    end subroutine parse_chrono
 
    !> Finds the template of a suspension.
-   subroutine find_template(tree, template, flaws)
+   subroutine take_template(tree, template, flaws)
       type(json_tree_t), intent(in) :: tree
       integer, intent(out) :: template                 !! index in templates
       type(flaws_t), intent(inout) :: flaws
@@ -172,10 +95,9 @@ contains
          call flaws%add(0, 'expected "Template", found none')
          return
       end if
-      template = findloc(template_names == tree%leaves(k)%text, .true., dim=1)
-      if (template == 0) call flaws%add(tree%leaves(k)%line, 'the template '//shown(tree%leaves(k)%text)//' is not read'// &
-         did_you_mean(tree%leaves(k)%text, template_names)//'; give its points as a table (name, x, y, z)')
-   end subroutine find_template
+      template = find_template(tree%leaves(k)%text)
+      if (template == 0) call flaws%add(tree%leaves(k)%line, why_not_read(tree%leaves(k)%text))
+   end subroutine take_template
 
    !> The message on points that the template needs and the file does not have, of which three are named.
    function missing_points(missing, template) result(text)
@@ -277,7 +199,7 @@ contains
       type(axle_facts_t), intent(inout) :: facts
       type(flaws_t), intent(inout) :: flaws
 
-      select case (template_names(template))
+      select case (templates(template)%name)
       case (arms)
          call take_bushing(tree, 'Upper Control Arm', facts%bushings(upper_slot), flaws)
          call take_bushing(tree, 'Lower Control Arm', facts%bushings(lower_slot), flaws)
@@ -286,7 +208,7 @@ contains
       case (arm)
          call take_bushing(tree, 'Trailing Arm', facts%bushings(lower_slot), flaws)
       end select
-      if (any([character(22) :: arms, strut, links] == template_names(template)) .and. find_leaf(tree, 'Tierod/Mass') > 0) &
+      if (any([character(22) :: arms, strut, links] == templates(template)%name) .and. find_leaf(tree, 'Tierod/Mass') > 0) &
          call take_bushing(tree, 'Tierod', facts%bushings(rod_slot), flaws)
       if (any(facts%bushings%is_given)) call facts%assumed%add('one bushing replaces a hinge, with equal rates along x, y '// &
          'and z, as in Chrono')
@@ -298,17 +220,36 @@ contains
       integer, intent(in) :: template                  !! index in templates
       type(axle_facts_t), intent(inout) :: facts
 
+      if (templates(template)%family == solid .or. any([character(18) :: toe_bar, cranks] == templates(template)%steering)) &
+         call facts%assumed%add('the drag link ends on the chassis: the file has no steering gear')
       select case (templates(template)%family)
       case (solid)
-         call facts%assumed%add('the drag link ends on the chassis: the file has no steering gear')
          if (has_branch(tree, 'Trackbar')) call facts%assumed%add('four rigid links and the Panhard rod lock the axle in roll, '// &
             'as in Chrono: put the links on bushings before a test')
+      case (leaf)
+         call facts%assumed%add('the axle tube slides along z and rolls about x at its centre of gravity, as in '// &
+            'Chrono: the leaves are springs, without axle steer')
       case (watt)
          call facts%assumed%add('the lever of the Watt linkage rotates about the middle of its ends (Chrono: left end plus '// &
             'half of the right one)')
       end select
+      if (templates(template)%family == lateral) call omit_bushings(tree, facts)
       if (has_branch(tree, 'Shock')) call facts%omitted%add('line '//str(branch_line(tree, 'Shock/'))//': Shock: damping')
       call facts%omitted%add('masses and moments of inertia')
    end subroutine explain
+
+   !> Lists the bushings of an arm on two links, which are not read.
+   subroutine omit_bushings(tree, facts)
+      type(json_tree_t), intent(in) :: tree
+      type(axle_facts_t), intent(inout) :: facts
+      character(*), parameter :: paths(5) = [character(34) :: 'Trailing Arm/Bushing Data Chassis', 'Upper Link/Bushing Data Arm', &
+         'Upper Link/Bushing Data Chassis', 'Lower Link/Bushing Data Arm', 'Lower Link/Bushing Data Chassis']
+      integer :: k
+
+      do k = 1, size(paths)
+         if (has_branch(tree, trim(paths(k)))) call facts%omitted%add('line '//str(branch_line(tree, trim(paths(k))//'/'))//': '// &
+            trim(paths(k))//': the joint is rigid in the deck')
+      end do
+   end subroutine omit_bushings
 
 end module ek_chrono

@@ -5,7 +5,7 @@ module ek_deck_parts
    use ek_point_name, only: point_count, point_names
    implicit none(type, external)
    private
-   public :: writing_t, put_point, put_body, put_joint, put_joint_at, put_hinge, put_line_joint, put_axis_joint
+   public :: writing_t, put_point, put_body, put_joint, put_joint_at, put_hinge, put_line_joint, put_axis_joint, put_ends
 
    !> The deck being written.
    type :: writing_t
@@ -51,12 +51,22 @@ contains
 
       if (size(at) == 1) then
          call put_joint_at(name, type, first, second, trim(point_names(at(1))), writing)
-         return
+      else
+         call begin_joint(name, type, first, second, writing)
+         call writing%deck%words('at', trim(point_names(at(1))), trim(point_names(at(2))))
+         call writing%deck%end()
       end if
-      call begin_joint(name, type, first, second, writing)
-      call writing%deck%words('at', trim(point_names(at(1))), trim(point_names(at(2))))
-      call writing%deck%end()
    end subroutine put_joint
+
+   !> Writes a rod between two points that are given by their names.
+   subroutine put_ends(name, first, second, one, other, writing)
+      character(*), intent(in) :: name, first, second, one, other
+      type(writing_t), intent(inout) :: writing
+
+      call begin_joint(name, 'distance', first, second, writing)
+      call writing%deck%words('at', one, other)
+      call writing%deck%end()
+   end subroutine put_ends
 
    !> Writes a joint at a point that is given by its name.
    subroutine put_joint_at(name, type, first, second, at, writing)

@@ -13,20 +13,15 @@ module ek_frame_votes
    use ek_decimal, only: get_decimal
    use ek_vote, only: ballot_t, add_vote, leader, for, against, reasons, vote_lines, questions, side_name, column_name, &
       take_axes, axes_form, length_names, length_values, of_up, of_outboard, of_forward, of_length
+   use ek_point_vote, only: half_t, vote_along, vote_vector, vote_column, vote_sign
+   use ek_solid_vote, only: vote_on_solid_up, vote_on_solid_outboard, vote_on_solid_forward
    use ek_point_name, only: point_count, point_names, wheel_centre, contact_patch, lca_front, lca_rear, lower_ball, uca_front, &
       uca_rear, upper_ball, tie_inner, tie_outer, toe_inner, toe_outer, strut_top, strut_low, arm_inner, arm_outer, &
       upper_front_in, upper_front_out, upper_rear_in, upper_rear_out, lower_in, lower_out, trailing_front, trailing_rear, &
-      damper_top, spring_top
+      damper_top, spring_top, kingpin_low, kingpin_top
    implicit none(type, external)
    private
    public :: half_t, point_set_t, wish_t, frame_t, find_frame
-
-   !> The points of one side, in the columns and the unit of the table.
-   type :: half_t
-      logical :: has(point_count) = .false.
-      real(wp) :: at(3, point_count) = 0.0_wp
-      integer :: line(point_count) = 0
-   end type half_t
 
    !> The points of an axle.
    type :: point_set_t
@@ -36,6 +31,7 @@ module ek_frame_votes
       logical :: has_other = .false.         !! the wheel centre of the other axle, of the same side, is known
       real(wp) :: other_centre(3) = 0.0_wp
       integer :: length = 0                  !! unit that the table names, index in length_names; 0: none
+      logical :: has_front_ends = .false.    !! the rods of a solid axle are named by their front and rear ends
    end type point_set_t
 
    !> The options of `elastokin import`; '' if not given.
@@ -44,8 +40,6 @@ module ek_frame_votes
       character(40) :: source = ''              !! format that defines axes and length; '': the options
       character(40) :: datum_source = ''        !! what gives datum; '': the option
    end type wish_t
-
-   real(wp), parameter :: clear = 1.5_wp     !! a vector lies along a column if the others are smaller by this factor
 
    type :: frame_t
       integer :: up = 0, outboard = 0, forward = 0      !! directions; outboard of the half that is used
@@ -139,18 +133,19 @@ contains
       type(half_t), intent(in) :: half
       type(frame_t), intent(inout) :: frame
 
-      call vote_along(frame, of_up, half, contact_patch, wheel_centre, 'wheel centre above the contact point')
+      call vote_along(frame%ballot, of_up, half, contact_patch, wheel_centre, 'wheel centre above the contact point')
       call vote_on_lowest(half, frame)
-      call vote_along(frame, of_up, half, lower_ball, upper_ball, 'upper ball joint above the lower one')
-      call vote_along(frame, of_up, half, lower_ball, strut_top, 'strut top above the lower ball joint')
-      call vote_along(frame, of_up, half, strut_low, strut_top, 'strut top above its lower end')
-      call vote_along(frame, of_up, half, lower_ball, damper_top, 'damper top above the lower ball joint')
-      call vote_along(frame, of_up, half, lower_ball, spring_top, 'spring top above the lower ball joint')
-      if (all(half%has([lca_front, lca_rear, uca_front, uca_rear]))) call vote_vector(frame, of_up, &
+      call vote_along(frame%ballot, of_up, half, lower_ball, upper_ball, 'upper ball joint above the lower one')
+      call vote_along(frame%ballot, of_up, half, lower_ball, strut_top, 'strut top above the lower ball joint')
+      call vote_along(frame%ballot, of_up, half, strut_low, strut_top, 'strut top above its lower end')
+      call vote_along(frame%ballot, of_up, half, lower_ball, damper_top, 'damper top above the lower ball joint')
+      call vote_along(frame%ballot, of_up, half, lower_ball, spring_top, 'spring top above the lower ball joint')
+      if (all(half%has([lca_front, lca_rear, uca_front, uca_rear]))) call vote_vector(frame%ballot, of_up, &
          half%at(:, uca_front) + half%at(:, uca_rear) - half%at(:, lca_front) - half%at(:, lca_rear), &
          'pivots of the upper arm above those of the lower one')
-      call vote_along(frame, of_up, half, lower_out, upper_front_out, 'upper link above the lower link, at the carrier')
-      call vote_along(frame, of_up, half, lower_in, upper_front_in, 'upper link above the lower link, at the chassis')
+      call vote_along(frame%ballot, of_up, half, lower_out, upper_front_out, 'upper link above the lower link, at the carrier')
+      call vote_along(frame%ballot, of_up, half, lower_in, upper_front_in, 'upper link above the lower link, at the chassis')
+      call vote_on_solid_up(half, frame%ballot)
    end subroutine vote_on_up
 
    !> Adds the vote of the contact point: of at least four points, it is the lowest by a tenth of the loaded radius or more.
@@ -174,21 +169,26 @@ contains
       integer :: k
 
       associate (half => points%half(frame%half), other => points%half(3 - frame%half))
-         if (all(half%has([lca_front, lca_rear, lower_ball]))) call vote_vector(frame, of_outboard, &
+         if (all(half%has([lca_front, lca_rear, lower_ball]))) call vote_vector(frame%ballot, of_outboard, &
             2*half%at(:, lower_ball) - half%at(:, lca_front) - half%at(:, lca_rear), 'lower ball joint outboard of the pivots')
-         if (all(half%has([uca_front, uca_rear, upper_ball]))) call vote_vector(frame, of_outboard, &
+         if (all(half%has([uca_front, uca_rear, upper_ball]))) call vote_vector(frame%ballot, of_outboard, &
             2*half%at(:, upper_ball) - half%at(:, uca_front) - half%at(:, uca_rear), 'upper ball joint outboard of the pivots')
-         call vote_along(frame, of_outboard, half, tie_inner, tie_outer, 'outer end of the tie rod outboard of the inner end')
-         call vote_along(frame, of_outboard, half, toe_inner, toe_outer, 'outer end of the toe link outboard of the inner end')
-         call vote_along(frame, of_outboard, half, arm_inner, arm_outer, 'outer pivot of the arm outboard of the inner pivot')
-         call vote_along(frame, of_outboard, half, lower_in, lower_out, 'outer end of the lower link outboard of the inner end')
-         call vote_along(frame, of_outboard, half, upper_front_in, upper_front_out, &
+         call vote_along(frame%ballot, of_outboard, half, tie_inner, tie_outer, &
+            'outer end of the tie rod outboard of the inner end')
+         call vote_along(frame%ballot, of_outboard, half, toe_inner, toe_outer, &
+            'outer end of the toe link outboard of the inner end')
+         call vote_along(frame%ballot, of_outboard, half, arm_inner, arm_outer, &
+            'outer pivot of the arm outboard of the inner pivot')
+         call vote_along(frame%ballot, of_outboard, half, lower_in, lower_out, &
+            'outer end of the lower link outboard of the inner end')
+         call vote_along(frame%ballot, of_outboard, half, upper_front_in, upper_front_out, &
             'outer end of the upper front link outboard of the inner end')
-         call vote_along(frame, of_outboard, half, upper_rear_in, upper_rear_out, &
+         call vote_along(frame%ballot, of_outboard, half, upper_rear_in, upper_rear_out, &
             'outer end of the upper rear link outboard of the inner end')
+         call vote_on_solid_outboard(half, frame%ballot)
          do k = 1, point_count
             if (.not. (half%has(k) .and. other%has(k))) cycle
-            call vote_vector(frame, of_outboard, half%at(:, k) - other%at(:, k), 'the other side is the mirror image')
+            call vote_vector(frame%ballot, of_outboard, half%at(:, k) - other%at(:, k), 'the other side is the mirror image')
             exit
          end do
       end associate
@@ -199,49 +199,67 @@ contains
       type(point_set_t), intent(in) :: points
       type(frame_t), intent(inout) :: frame
       real(wp) :: top(3), middle(3)
-      integer :: column
+      integer :: column, low, high
 
       column = 6 - abs(frame%up) - abs(frame%outboard)
       if (column < 1 .or. column > 3 .or. abs(frame%up) == abs(frame%outboard)) return
       associate (half => points%half(frame%half))
-         call vote_column(frame, column, half, lca_rear, lca_front, 'front pivot of the lower arm ahead of the rear one')
-         call vote_column(frame, column, half, uca_rear, uca_front, 'front pivot of the upper arm ahead of the rear one')
-         call vote_column(frame, column, half, trailing_rear, trailing_front, &
+         call vote_column(frame%ballot, column, half, lca_rear, lca_front, 'front pivot of the lower arm ahead of the rear one')
+         call vote_column(frame%ballot, column, half, uca_rear, uca_front, 'front pivot of the upper arm ahead of the rear one')
+         call vote_column(frame%ballot, column, half, trailing_rear, trailing_front, &
             'front end of the trailing link ahead of the rear one')
-         call vote_column(frame, column, half, upper_rear_in, upper_front_in, 'upper front link ahead of the rear one')
+         call vote_column(frame%ballot, column, half, upper_rear_in, upper_front_in, 'upper front link ahead of the rear one')
          if (all(half%has([arm_inner, arm_outer, wheel_centre]))) then
             middle = 0.5_wp*(half%at(:, arm_inner) + half%at(:, arm_outer)) - half%at(:, wheel_centre)
-            call vote_sign(frame, column, middle(column), 'pivots of a trailing arm ahead of the wheel')
+            call vote_sign(frame%ballot, column, middle(column), 'pivots of a trailing arm ahead of the wheel')
          end if
-         if (points%has_other .and. half%has(wheel_centre) .and. points%axle > 0) call vote_sign(frame, column, &
+         if (points%has_other .and. half%has(wheel_centre) .and. points%axle > 0) call vote_sign(frame%ballot, column, &
             merge(1, -1, points%axle == 1)*(half%at(column, wheel_centre) - points%other_centre(column)), &
             'front wheels ahead of the rear wheels')
          if (points%is_sided) call add_vote(frame%ballot, of_forward, handed(frame), &
             'a right-handed frame, with the '//trim(merge('left ', 'right', frame%half == 1))//' side where the table has it')
-         if (points%axle == 1 .and. half%has(lower_ball) .and. any(half%has([upper_ball, strut_top]))) then
-            top = half%at(:, merge(upper_ball, strut_top, half%has(upper_ball))) - half%at(:, lower_ball)
-            if (abs(top(column)) > tan(degree)*abs(top(abs(frame%up)))) call vote_sign(frame, column, -top(column), &
+         call vote_on_solid_forward(half, column, points%axle, points%has_front_ends, frame%ballot)
+         call find_steering_axis(half, low, high)
+         if (points%axle == 1 .and. low > 0) then
+            top = half%at(:, high) - half%at(:, low)
+            if (abs(top(column)) > tan(degree)*abs(top(abs(frame%up)))) call vote_sign(frame%ballot, column, -top(column), &
                'positive caster of a front axle')
-            call vote_on_trail(half, top, column, frame)
+            call vote_on_trail(half, half%at(:, low), top, column, frame)
             call vote_on_inclination(top, frame)
          end if
       end associate
    end subroutine vote_on_forward
 
-   !> Adds the vote of the mechanical trail: the steering axis meets the road ahead of the contact point.
-   subroutine vote_on_trail(half, axis, column, frame)
+   !> Finds the lower and the upper point of the steering axis; 0 if they are not known.
+   pure subroutine find_steering_axis(half, low, high)
       type(half_t), intent(in) :: half
-      real(wp), intent(in) :: axis(3)
+      integer, intent(out) :: low, high
+      integer, parameter :: lows(3) = [lower_ball, lower_ball, kingpin_low], highs(3) = [upper_ball, strut_top, kingpin_top]
+      integer :: k
+
+      low = 0
+      high = 0
+      do k = size(lows), 1, -1
+         if (.not. (half%has(lows(k)) .and. half%has(highs(k)))) cycle
+         low = lows(k)
+         high = highs(k)
+      end do
+   end subroutine find_steering_axis
+
+   !> Adds the vote of the mechanical trail: the steering axis meets the road ahead of the contact point.
+   subroutine vote_on_trail(half, low, axis, column, frame)
+      type(half_t), intent(in) :: half
+      real(wp), intent(in) :: low(3), axis(3)          !! a point of the steering axis, and its direction
       integer, intent(in) :: column
       type(frame_t), intent(inout) :: frame
       real(wp) :: trail, height
 
       if (.not. all(half%has([contact_patch, wheel_centre]))) return
       if (.not. abs(axis(abs(frame%up))) > 0.0_wp) return
-      height = half%at(abs(frame%up), contact_patch) - half%at(abs(frame%up), lower_ball)
-      trail = half%at(column, lower_ball) + height/axis(abs(frame%up))*axis(column) - half%at(column, contact_patch)
-      if (abs(trail) > 0.01_wp*norm2(half%at(:, contact_patch) - half%at(:, wheel_centre))) call vote_sign(frame, column, trail, &
-         'positive mechanical trail of a front axle')
+      height = half%at(abs(frame%up), contact_patch) - low(abs(frame%up))
+      trail = low(column) + height/axis(abs(frame%up))*axis(column) - half%at(column, contact_patch)
+      if (abs(trail) > 0.01_wp*norm2(half%at(:, contact_patch) - half%at(:, wheel_centre))) call vote_sign(frame%ballot, column, &
+         trail, 'positive mechanical trail of a front axle')
    end subroutine vote_on_trail
 
    !> Adds the vote of the kingpin inclination of a front axle: the steering axis leans inboard.
@@ -501,52 +519,6 @@ contains
             str(half%line(k))//') is below the road, which is at the height '//str(frame%road)//'; check contact point or --datum'
       end do
    end subroutine check_road
-
-   !> Adds a vote for the direction from one point to another.
-   subroutine vote_along(frame, question, half, from, to, reason)
-      type(frame_t), intent(inout) :: frame
-      integer, intent(in) :: question, from, to
-      type(half_t), intent(in) :: half
-      character(*), intent(in) :: reason
-
-      if (half%has(from) .and. half%has(to)) call vote_vector(frame, question, half%at(:, to) - half%at(:, from), reason)
-   end subroutine vote_along
-
-   !> Adds a vote for the column of a vector, if one is clearly the largest.
-   subroutine vote_vector(frame, question, vector, reason)
-      type(frame_t), intent(inout) :: frame
-      integer, intent(in) :: question
-      real(wp), intent(in) :: vector(3)
-      character(*), intent(in) :: reason
-      integer :: column
-
-      column = maxloc(abs(vector), dim=1)
-      if (count(clear*abs(vector) > abs(vector(column))) /= 1) return
-      call add_vote(frame%ballot, question, merge(column, -column, vector(column) > 0.0_wp), reason)
-   end subroutine vote_vector
-
-   !> Adds a vote for the forward direction from one point to another.
-   subroutine vote_column(frame, column, half, from, to, reason)
-      type(frame_t), intent(inout) :: frame
-      integer, intent(in) :: column, from, to
-      type(half_t), intent(in) :: half
-      character(*), intent(in) :: reason
-      real(wp) :: vector(3)
-
-      if (.not. (half%has(from) .and. half%has(to))) return
-      vector = half%at(:, to) - half%at(:, from)
-      if (abs(vector(column)) > 0.3_wp*norm2(vector)) call vote_sign(frame, column, vector(column), reason)
-   end subroutine vote_column
-
-   !> Adds a vote for the forward direction by a sign.
-   subroutine vote_sign(frame, column, value, reason)
-      type(frame_t), intent(inout) :: frame
-      integer, intent(in) :: column
-      real(wp), intent(in) :: value
-      character(*), intent(in) :: reason
-
-      if (abs(value) > 0.0_wp) call add_vote(frame%ballot, of_forward, merge(column, -column, value > 0.0_wp), reason)
-   end subroutine vote_sign
 
    !> Reports that a question is not decided, with at most seven votes.
    subroutine refuse(frame, question, cause)

@@ -3,8 +3,9 @@ module ek_link_deck
    use ek_kinds, only: wp
    use ek_point_name, only: point_names, lca_front, lca_rear, lower_ball, uca_front, uca_rear, upper_ball, tie_outer, &
       strut_top, strut_low, push_low, push_top, rocker_pivot, rocker_axis, arm_inner, arm_outer, upper_front_in, &
-      upper_front_out, upper_rear_in, upper_rear_out, lower_in, lower_out, trailing_front, trailing_rear, damper_outer
-   use ek_point_kind, only: double_wishbone, mcpherson, five_link, trailing_arm
+      upper_front_out, upper_rear_in, upper_rear_out, lower_in, lower_out, trailing_front, trailing_rear, damper_outer, arm_ball, &
+      upper_lateral_in, upper_lateral_out, lower_lateral_in, lower_lateral_out
+   use ek_point_kind, only: double_wishbone, mcpherson, five_link, trailing_arm, lateral_arm
    use ek_frame_votes, only: half_t
    use ek_axle_facts, only: axle_facts_t, upper_slot, lower_slot, rod_slot
    use ek_deck_parts, only: writing_t, put_body, put_joint, put_hinge, put_line_joint, put_axis_joint
@@ -35,6 +36,12 @@ contains
       if (kind == trailing_arm) then
          call put_body('arm', writing, origin='wheel_centre')
          call put_pivot('arm', arm_inner, arm_outer, half%at, facts%bushings(lower_slot), writing)
+         return
+      else if (kind == lateral_arm) then
+         call put_body('arm', writing, origin='wheel_centre')
+         call put_joint('arm_ball', 'spherical', 'chassis', 'arm', [arm_ball], writing)
+         call put_joint('upper_link', 'distance', 'chassis', 'arm', [upper_lateral_in, upper_lateral_out], writing)
+         call put_joint('lower_link', 'distance', 'chassis', 'arm', [lower_lateral_in, lower_lateral_out], writing)
          return
       end if
       call put_body('carrier', writing, origin='wheel_centre')

@@ -9,10 +9,10 @@ module ek_point_deck
    use ek_hardpoint, only: left_point, right_point, point_pair
    use ek_point_name, only: point_count, point_names, unused_point, wheel_centre, contact_patch, lower_ball, upper_ball, &
       tie_inner, tie_outer, toe_inner, toe_outer, strut_top, push_low, push_top, rocker_pivot, rocker_axis, rack_centre, &
-      damper_inner, damper_outer, kingpin_low, kingpin_top, panhard_chassis, panhard_axle, &
-      triangle_chassis, triangle_axle
-   use ek_point_kind, only: kinds, double_wishbone, mcpherson, trailing_arm, four_link_axle, three_link_axle, is_solid, find_kind, &
-      incomplete, check_rod, nearest_text
+      damper_inner, damper_outer, damper_top, damper_low, spring_top, spring_low, kingpin_low, kingpin_top, &
+      panhard_chassis, panhard_axle, triangle_chassis, triangle_axle
+   use ek_point_kind, only: kinds, double_wishbone, mcpherson, trailing_arm, lateral_arm, by_links, by_triangle, is_solid, &
+      has_knuckles, find_kind, incomplete, check_rod, check_ends, nearest_text
    use ek_point_table, only: point_table_t, not_a_point
    use ek_point_set, only: choose_points
    use ek_frame_votes, only: point_set_t, half_t, wish_t, frame_t, find_frame
@@ -54,6 +54,8 @@ contains
          call flaws%add(0, frame%problem)
          return
       end if
+      if (kind > 0) call check_ends(points%half(frame%half), frame%forward, kind, flaws)
+      if (flaws%count() > 0) return
       writing%file = path(index(path, '/', back=.true.) + 1:)
       writing%is_rear = frame%forward == -1
       call choose_unit(frame%length, writing)
@@ -97,7 +99,7 @@ contains
       half = points%half(frame%half)
       half%at = 0.0_wp
       call turn_points(points%half(frame%half), frame, writing, half%at)
-      is_steered = points%axle == 1 .and. kind /= trailing_arm .and. .not. is_solid(kind)
+      is_steered = points%axle == 1 .and. kinds(kind)%has_rod
       rod = [tie_inner, tie_outer]
       if (.not. all(half%has(rod))) rod = [toe_inner, toe_outer]
       is_steered = is_steered .and. rod(1) == tie_inner
@@ -116,7 +118,7 @@ contains
       call writing%deck%end()
       call put_all_points(half, kind, frame, facts, is_steered, writing)
       call writing%deck%heading('bodies and joints')
-      if (is_solid(kind)) call put_solid_axle(kind, writing)
+      if (is_solid(kind)) call put_solid_axle(kind, half, writing)
       if (.not. is_solid(kind)) call put_links(half, kind, rod, is_steered, facts, writing)
       if (is_steered) call put_rack(half, writing)
       call put_springs(half%at, facts, writing)
@@ -216,7 +218,8 @@ contains
          writing%is_written(pack(needs, needs > 0)) = .true.
       end associate
       writing%is_written(contact_patch) = half%has(contact_patch)
-      if (is_solid(kind)) writing%is_written([panhard_chassis, panhard_axle]) = half%has([panhard_chassis, panhard_axle])
+      if (kinds(kind)%guide == by_links) writing%is_written([panhard_chassis, panhard_axle]) = &
+         half%has([panhard_chassis, panhard_axle])
       if (kinds(kind)%has_rod) writing%is_written(rod) = .true.
       if (is_steered) writing%is_written(rack_centre) = half%has(rack_centre)
       if (has_rocker(half, kind)) then
@@ -284,10 +287,13 @@ contains
       type(half_t), intent(in) :: half
       character(:), allocatable :: words
 
-      words = ': springs, dampers, masses and bars are not read'
-      if (point == unused_point) return
-      if (any([push_low, push_top, rocker_pivot] == point) .and. .not. half%has(rocker_axis)) &
+      if (any([unused_point, damper_top, damper_low, damper_inner, damper_outer, spring_top, spring_low] == point)) then
+         words = ': springs, dampers, masses and bars are not read'
+      else if (any([push_low, push_top, rocker_pivot] == point) .and. .not. half%has(rocker_axis)) then
          words = ': the axis of the rocker needs a second point, rocker_axis'
+      else
+         words = ': not a point of this kind of suspension'
+      end if
    end function why_unused
 
    subroutine put_model(title, writing)
@@ -324,7 +330,7 @@ contains
       call writing%deck%heading('hardpoints, design position')
       do k = 1, point_count
          if (.not. writing%is_written(k) .or. k == rack_centre) cycle
-         if (kind == three_link_axle .and. any([triangle_chassis, triangle_axle] == k)) cycle
+         if (kinds(kind)%guide == by_triangle .and. any([triangle_chassis, triangle_axle] == k)) cycle
          call put_point(trim(point_names(k)), half%at(:, k), writing%file//':'//str(half%line(k)), writing)
          if (k == wheel_centre .and. .not. half%has(contact_patch)) then
             half%at(:, contact_patch) = contact_point(half%at(:, wheel_centre), frame%road*writing%factor, facts, writing%is_rear)
@@ -384,9 +390,8 @@ contains
          call writing%deck%words('steer_axis', trim(point_names(lower_ball)), trim(point_names(upper_ball)))
       case (mcpherson)
          call writing%deck%words('steer_axis', trim(point_names(lower_ball)), trim(point_names(strut_top)))
-      case (four_link_axle)
-         call writing%deck%words('steer_axis', trim(point_names(kingpin_low)), trim(point_names(kingpin_top)))
       end select
+      if (has_knuckles(kind)) call writing%deck%words('steer_axis', trim(point_names(kingpin_low)), trim(point_names(kingpin_top)))
       call writing%deck%end()
       call writing%deck%blank()
       call writing%deck%comment('assumed: the range, a tenth of the loaded radius')
@@ -403,8 +408,8 @@ contains
       character(:), allocatable :: body
 
       body = 'carrier'
-      if (kind == trailing_arm) body = 'arm'
-      if (is_solid(kind) .and. kind /= four_link_axle) body = 'axle'
+      if (any([trailing_arm, lateral_arm] == kind)) body = 'arm'
+      if (is_solid(kind) .and. .not. has_knuckles(kind)) body = 'axle'
    end function wheel_body
 
    !> A tenth of a radius, with two digits.

@@ -3,12 +3,12 @@
 !>
 !> A name is divided into known terms, each of which stands for some letters: 'lower wishbone front pivot' has L, A, F and V. A
 !> point of `points` is meant if all letters that it needs are there, and no letter beyond those that it may have. A name with a
-!> term that is not in the list stands for no point: nothing is guessed. The points of a solid axle have their name of
-!> `point_names` only.
+!> term that is not in the list stands for no point: nothing is guessed. Steering and guides of a solid axle other than rods have
+!> their names of `point_names` only.
 !>
 !> Letters: L lower, U upper, F front, R rear, I inner or chassis, O outer or wheel carrier, A arm, B ball joint, T tie rod,
 !> E toe link, K rack, W wheel, C centre, P contact point, S strut, D damper, G spring, H push or pull rod, X rocker, Z axis,
-!> V pivot or bushing, Q trailing, N link, J rod, Y anti-roll bar, M attachment,
+!> V pivot or bushing, Q trailing, N link, J rod, Y anti-roll bar, M attachment, t axle tube, p Panhard rod, k kingpin,
 !> 1 first, 2 second.
 module ek_point_name
    use ek_text, only: lower, nearest_name
@@ -21,7 +21,8 @@ module ek_point_name
       trailing_rear, rack_centre, damper_top, damper_low, spring_top, spring_low, kingpin_low, kingpin_top, upper_rod_chassis, &
       upper_rod_axle, lower_rod_chassis, lower_rod_axle, panhard_chassis, panhard_axle, drag_link_chassis, drag_link_crank, &
       crank_tie_rod, crank_axle, triangle_chassis, triangle_axle, axle_pivot, watt_left_chassis, watt_left_lever, &
-      watt_right_chassis, watt_right_lever
+      watt_right_chassis, watt_right_lever, axle_guide, drag_link_knuckle, arm_ball, upper_lateral_in, upper_lateral_out, &
+      lower_lateral_in, lower_lateral_out, lower_link_front, lower_link_rear, upper_link_front, upper_link_rear
 
    integer, parameter :: wheel_centre = 1, contact_patch = 2, lca_front = 3, lca_rear = 4, lower_ball = 5, uca_front = 6, &
       uca_rear = 7, upper_ball = 8, tie_inner = 9, tie_outer = 10, toe_inner = 11, toe_outer = 12, strut_top = 13, &
@@ -33,8 +34,14 @@ module ek_point_name
    integer, parameter :: kingpin_low = 36, kingpin_top = 37, upper_rod_chassis = 38, upper_rod_axle = 39, &
       lower_rod_chassis = 40, lower_rod_axle = 41, panhard_chassis = 42, panhard_axle = 43, drag_link_chassis = 44, &
       drag_link_crank = 45, crank_tie_rod = 46, crank_axle = 47, triangle_chassis = 48, triangle_axle = 49, &
-      axle_pivot = 50, watt_left_chassis = 51, watt_left_lever = 52, watt_right_chassis = 53, watt_right_lever = 54
-   integer, parameter :: point_count = 54
+      axle_pivot = 50, watt_left_chassis = 51, watt_left_lever = 52, watt_right_chassis = 53, watt_right_lever = 54, &
+      axle_guide = 55, drag_link_knuckle = 56
+   !> Points of a trailing arm on two lateral links.
+   integer, parameter :: arm_ball = 57, upper_lateral_in = 58, upper_lateral_out = 59, lower_lateral_in = 60, &
+      lower_lateral_out = 61
+   !> Ends of the rods of a solid axle in other words: ek_point_set names the end on the tube.
+   integer, parameter :: lower_link_front = 62, lower_link_rear = 63, upper_link_front = 64, upper_link_rear = 65
+   integer, parameter :: point_count = 65
    integer, parameter :: unused_point = 0      !! a known part that is not read, as an anti-roll bar
    character(20), parameter :: point_names(point_count) = [character(20) :: 'wheel_centre', 'contact_patch', 'lca_front', &
       'lca_rear', 'lower_ball_joint', 'uca_front', 'uca_rear', 'upper_ball_joint', 'tie_rod_inner', 'tie_rod_outer', &
@@ -45,7 +52,8 @@ module ek_point_name
       'kingpin_low', 'kingpin_top', 'upper_rod_chassis', 'upper_rod_axle', 'lower_rod_chassis', 'lower_rod_axle', &
       'panhard_chassis', 'panhard_axle', 'drag_link_chassis', 'drag_link_crank', 'crank_tie_rod', 'crank_axle', &
       'triangle_chassis', 'triangle_axle', 'axle_pivot', 'watt_left_chassis', 'watt_left_lever', 'watt_right_chassis', &
-      'watt_right_lever']
+      'watt_right_lever', 'axle_guide', 'drag_link_knuckle', 'arm_ball', 'upper_lateral_inner', 'upper_lateral_outer', &
+      'lower_lateral_inner', 'lower_lateral_outer', 'lower_link_front', 'lower_link_rear', 'upper_link_front', 'upper_link_rear']
 
    !> A set of letters that stands for a point.
    type :: rule_t
@@ -82,7 +90,16 @@ module ek_point_name
       rule_t(upper_front_in, 'UNFI', ''), rule_t(upper_rear_in, 'UNRI', ''), &
       rule_t(lower_in, 'LI', 'N'), rule_t(lower_out, 'LON', ''), &
       rule_t(trailing_front, 'QF', 'NA'), rule_t(trailing_rear, 'QR', 'NA'), &
-      rule_t(rack_centre, 'KC', '')]
+      rule_t(rack_centre, 'KC', ''), &
+      rule_t(lower_link_front, 'LNF', ''), rule_t(lower_link_front, 'LQF', 'NA'), rule_t(lower_link_rear, 'LNR', ''), &
+      rule_t(lower_link_rear, 'LQR', 'NA'), rule_t(upper_link_front, 'UNF', ''), rule_t(upper_link_front, 'UQF', 'NA'), &
+      rule_t(upper_link_rear, 'UNR', ''), rule_t(upper_link_rear, 'UQR', 'NA'), &
+      rule_t(lower_rod_axle, 'LNt', ''), rule_t(lower_rod_axle, 'LQt', 'AN'), rule_t(lower_rod_axle, 'LJt', ''), &
+      rule_t(upper_rod_axle, 'UNt', ''), rule_t(upper_rod_axle, 'UQt', 'AN'), rule_t(upper_rod_axle, 'UJt', ''), &
+      rule_t(lower_rod_chassis, 'LQI', 'AN'), rule_t(lower_rod_chassis, 'LJI', ''), rule_t(upper_rod_chassis, 'UNI', ''), &
+      rule_t(upper_rod_chassis, 'UQI', 'AN'), rule_t(upper_rod_chassis, 'UJI', ''), rule_t(spring_low, 'Gt', ''), &
+      rule_t(panhard_chassis, 'pI', 'JYN'), rule_t(panhard_axle, 'pt', 'JYN'), &
+      rule_t(kingpin_low, 'kL', 'BV'), rule_t(kingpin_top, 'kU', 'BV')]
 
    !> A term and its letters; a term without letters is ignored.
    type :: word_t
@@ -128,7 +145,8 @@ module ek_point_name
       word_t('hardpoint', ''), word_t('hp', ''), word_t('hps', ''), word_t('end', ''), word_t('seat', ''), word_t('side', ''), &
       word_t('the', ''), &
       word_t('of', ''), word_t('to', ''), word_t('a', ''), word_t('on', ''), &
-      word_t('at', ''), word_t('and', ''), word_t('axle', '')]
+      word_t('at', ''), word_t('and', ''), &
+      word_t('axle', 't'), word_t('tube', 't'), word_t('panhard', 'p'), word_t('trackbar', 'p'), word_t('kingpin', 'k')]
 
    !> Terms for a side or a corner: axle (0, 1 front, 2 rear) and side (0, 1 left, 2 right).
    type :: place_t
@@ -231,7 +249,7 @@ contains
       character(*), intent(in) :: letters, ends
       type(meaning_t), intent(inout) :: found
 
-      if (scan(letters, 'Y') > 0) then
+      if (scan(letters, 'Y') > 0 .and. scan(letters, 'p') == 0) then
          found%point = unused_point
          if (len(ends) > 1 .and. found%axle == 0) found%axle = index('FR', ends(1:1))
          return
@@ -257,7 +275,7 @@ contains
       do k = 1, size(rules)
          if (len(letters) == 0) return
          if (verify(trim(rules(k)%needs), letters) > 0) cycle
-         if (verify(letters, trim(rules(k)%needs)//trim(rules(k)%may)//ignored_letter(rules(k)%needs)) > 0) cycle
+         if (verify(letters, trim(rules(k)%needs)//trim(rules(k)%may)//ignored_letters(rules(k)%needs)) > 0) cycle
          if (point > 0 .and. point /= rules(k)%point) then
             point = -1
             return
@@ -266,13 +284,15 @@ contains
       end do
    end function point_of
 
-   !> The letter of a rod says nothing beside tie, toe or push.
-   pure function ignored_letter(needs) result(letter)
+   !> Letters that say nothing: that of the axle tube unless a rod of a solid axle may end there, that of a rod beside tie, toe or
+   !> push.
+   pure function ignored_letters(needs) result(letters)
       character(*), intent(in) :: needs
-      character(1) :: letter
+      character(2) :: letters
 
-      letter = merge('J', ' ', scan(needs, 'THE') > 0)
-   end function ignored_letter
+      letters = merge('tJ', 't ', scan(needs, 'THE') > 0)
+      if (scan(needs, 'LU') > 0 .and. scan(needs, 'NQ') > 0) letters = ''
+   end function ignored_letters
 
    !> Adds the letters of a term, which may consist of several terms without blanks ('lcafront').
    pure recursive subroutine add_letters(word, letters, ends, is_known)

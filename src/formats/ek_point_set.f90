@@ -5,7 +5,8 @@ module ek_point_set
    use ek_flaws, only: flaws_t, shown
    use ek_hardpoint, only: right_point
    use ek_point_name, only: point_names, wheel_centre, uca_front, uca_rear, lower_ball, upper_front_in, upper_front_out, &
-      upper_rear_in, upper_rear_out, lower_out
+      upper_rear_in, upper_rear_out, lower_in, lower_out, lower_rod_chassis, lower_rod_axle, upper_rod_chassis, upper_rod_axle, &
+      lower_link_front, lower_link_rear, upper_link_front, upper_link_rear
    use ek_point_table, only: table_point_t, point_table_t
    use ek_frame_votes, only: point_set_t, wish_t
    implicit none(type, external)
@@ -36,6 +37,7 @@ contains
       call take_other_centre(table, kept, points)
       table%used = kept
       call name_five_links(table%points(:kept))
+      call name_rods(table%points(:kept), points%has_front_ends)
       call take_points(table%points(:kept), points, flaws)
    end subroutine choose_points
 
@@ -91,6 +93,27 @@ contains
          end do
       end do
    end subroutine name_five_links
+
+   !> Renames the ends of the rods of a solid axle: the front ends are those on the chassis (check_ends of ek_point_kind), and
+   !> 'lower link chassis' belongs to 'lower link axle'.
+   pure subroutine name_rods(list, has_front_ends)
+      type(table_point_t), intent(inout) :: list(:)
+      logical, intent(out) :: has_front_ends
+      integer, parameter :: ends(4) = [lower_link_front, lower_link_rear, upper_link_front, upper_link_rear], &
+         rods(4) = [lower_rod_chassis, lower_rod_axle, upper_rod_chassis, upper_rod_axle]
+      integer :: k, j
+
+      has_front_ends = .false.
+      do j = 1, size(ends)
+         do k = 1, size(list)
+            if (list(k)%point /= ends(j)) cycle
+            list(k)%point = rods(j)
+            has_front_ends = .true.
+         end do
+      end do
+      if (.not. any(list%point == lower_rod_axle)) return
+      where (list%point == lower_in) list%point = lower_rod_chassis
+   end subroutine name_rods
 
    !> Puts the points on their sides. The same point twice is an error: the first one, and the number of the others.
    subroutine take_points(list, points, flaws)
