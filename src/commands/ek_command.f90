@@ -327,6 +327,9 @@ module ek_command
       option_t('derivatives', '--case NAME', 'case or standard test (default: the first case of the deck)'), &
       option_t('derivatives', '--of a,b,c', 'write only these columns of the case or of the compliance matrix (names as in'// &
       indent//'run --compliance); * stands for any letters'), &
+      option_t('derivatives', '--definitions NAME', &
+      'columns in the definitions of another program, which --of then names; as for run:'//indent// &
+      'adams | motionview | ipg | optimumk | lotus | mathworks | sae'), &
       option_t('derivatives', '--with paths', 'write only derivatives with respect to these numbers, as in --set:'//indent// &
       'point.lca_front.z,bushing.*.kt; may be repeated'), &
       option_t('derivatives', '--at a,b,c', &
