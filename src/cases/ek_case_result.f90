@@ -17,6 +17,7 @@ module ek_case_result
    use ek_wheel_side, only: single_side
    use ek_standard_tests, only: describe_sweep
    use ek_sweep_table, only: observer_t, make_observer, observe, open_states, sweep_bytes
+   use ek_defined_table, only: defined_list_t, append_defined
    use ek_failure_text, only: failure_text, stability_remarks
    use ek_case_remarks, only: settling_remarks, drift_remarks, travel_remarks, rack_remarks, closure_remarks, curve_reach_remarks
    use ek_remark, only: remark_list_t, failure, on_case, on_end
@@ -42,6 +43,7 @@ module ek_case_result
       logical :: is_compared = .true.              !! a linear method is compared with equilibrium at the ends of the path
       real(wp) :: min_settling = 1.0e-8_wp       !! a larger displacement of a wheel under the constant loads gives a note [m]
       character(name_length), allocatable :: columns(:)   !! quantities that are computed; not allocated: all
+      type(defined_list_t), allocatable :: defined !! columns of another program that the table also has, at its end
       logical :: defers_kandc = .false.            !! the caller fills the K&C quantities at the states that are read
       real(wp) :: reach = huge(1.0_wp)             !! swept value [SI] beyond which, on either side of design, no state is needed
       character(:), allocatable :: checksum        !! checksum of the deck, for the header of the table; not allocated: no header
@@ -143,6 +145,7 @@ contains
       end if
       if (.not. has_path) call sweep(result%suspension, result%case, result%path, result%kkt, progress, options%reach, result%space)
       call observe(result%suspension, result%case, result%path, result%kkt, tells, result%table, options%defers_kandc)
+      if (allocated(options%defined)) call append_defined(result%suspension, options%defined, result%table)
       if (any(result%path%failure%state > 0) .or. any(open_states(result%table))) result%outcome = partly_solved
       if (allocated(options%checksum)) call add_header(result%table, result%suspension, result%case, options%checksum)
    end subroutine solve_mounted

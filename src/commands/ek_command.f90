@@ -148,6 +148,8 @@ module ek_command
       'reaction are length and force, or angle and moment, of the measure, driver or element that the record names;'//nl// &
       'swept is the swept value of a case. The schema does not cover rules between keys; `elastokin check` covers all.', '', -1)]
 
+   character(*), parameter :: program_words = 'adams | motionview | ipg | optimumk | lotus | mathworks | sae'    ! `programs` of ek_definition_rows
+
    ! In the order of the help; neighbours with the same help share a line
    type(option_t), parameter :: options(*) = [ &
       option_t('run', '--out DIR', 'output folder (default: out); --out - writes the CSV to standard output'), &
@@ -170,7 +172,7 @@ module ek_command
       'state, factor and the columns on convergence are always written'), &
       option_t('run', '--definitions NAME', &
       'columns in the definitions, signs, units and names of another program:'//indent// &
-      'adams | motionview | ipg | optimumk | lotus | mathworks | sae'), &
+      program_words), &
       option_t('run', '--json', 'also write DIR/<model>_run.json: tables, messages and status;'//indent// &
       'with "--out -", print only this JSON object'), &
       option_t('run', '--compliance', 'also write DIR/<model>_<case>_compliance.csv: the compliance matrix at every state'), &
@@ -205,7 +207,7 @@ module ek_command
       option_t('report', '--height H', 'as for run'), option_t('report', '--state NAME', 'as for run'), &
       option_t('report', '--definitions NAME', &
       'also write numbers and tables in the definitions of another program:'//indent// &
-      'adams | motionview | ipg | optimumk | lotus | mathworks | sae'), &
+      program_words), &
       option_t('report', '--loads', &
       'also write loads.csv (loads of every member at every state of every test) and peak-loads.csv'), &
       option_t('report', '--no-plots', 'without the picture in space; gnuplot is not started'), &
@@ -253,6 +255,9 @@ module ek_command
       option_t('fit', '--page', 'also write DIR/<fit>.html: targets, curves, intervals, contributions, what moved'), &
       option_t('fit', '--no-plots', no_plots_help), option_t('fit', '--quiet', quiet_help), &
       option_t('compare', '--out DIR', 'output folder (default: out)'), &
+      option_t('compare', '--definitions NAME', &
+      'of reports, compare tables and numbers at design in the definitions of another program (report --definitions):'//indent// &
+      program_words), &
       option_t('compare', '--window what=half', 'as for report, if gradients are computed from CSV files'), &
       option_t('compare', '--threshold P%', &
       'smallest change that is listed, as a percentage of the value in A or of the least span of a chart;'//indent// &
@@ -307,6 +312,9 @@ module ek_command
       indent//'road | centre | force (default: road if every wheel has a tyre_rate, else centre)'), &
       option_t('export', '--axle WORD', 'front | rear (default: position of &axle)'), &
       option_t('export', '--other DECK', 'deck of the other axle, for matlab-kc'), &
+      option_t('export', '--definitions NAME', &
+      'of target csv: also write <model>_definitions.csv, kinematics in the definitions of another program:'//indent// &
+      program_words), &
       option_t('export', '--signs WORD', 'signs of target csv: iso | sae (default: iso)'), &
       option_t('export', '--loads F:M:n', &
       'largest force [N], largest moment [N m] and n points of target csv (default: 2000:100:21)'), &
@@ -327,6 +335,9 @@ module ek_command
       option_t('derivatives', '--case NAME', 'case or standard test (default: the first case of the deck)'), &
       option_t('derivatives', '--of a,b,c', 'write only these columns of the case or of the compliance matrix (names as in'// &
       indent//'run --compliance); * stands for any letters'), &
+      option_t('derivatives', '--definitions NAME', &
+      'columns in the definitions of another program, which --of then names; as for run:'//indent// &
+      program_words), &
       option_t('derivatives', '--with paths', 'write only derivatives with respect to these numbers, as in --set:'//indent// &
       'point.lca_front.z,bushing.*.kt; may be repeated'), &
       option_t('derivatives', '--at a,b,c', &
@@ -340,7 +351,7 @@ module ek_command
       option_t('list', '--cases', 'print the cases and standard tests'), &
       option_t('list', '--numbers', 'print the K&C metrics'), &
       option_t('list', '--definitions NAME', 'print the definitions of a program; a deck is not necessary:'//indent// &
-      'adams | motionview | ipg | optimumk | lotus | mathworks | sae'), &
+      program_words), &
       option_t('list', '--like PATTERN', 'print only names that match; * stands for any letters: --like "bushing.*"'), &
       option_t('list', '--json', 'print one JSON object (schema/list.schema.json, definitions.schema.json)'), &
       option_t('list', '--set path=value', 'as for run'), option_t('list', '--set-file FILE', 'as for run'), &

@@ -8,6 +8,7 @@ module ek_compare
    use ek_chart, only: chart_t, charts_script, remove_drawn, pictures_of
    use ek_outbox, only: outbox_t, outbox_in, keep_first
    use ek_report_files, only: results_t, read_results, test_number
+   use ek_definition, only: check_program, title_of
    use ek_gradient_definition, only: windows_t
    use ek_command_line, only: command_line_t, refuse_stream, read_windows, read_threshold
    use ek_console, only: print_note, print_text
@@ -42,6 +43,10 @@ contains
       type(deck_record_t), allocatable :: decks(:)
       logical :: is_quiet, has_plots
 
+      if (line%has('--definitions') .and. (line%has('--measured') .or. line%has('--map'))) then
+         call fail(error, exit_usage, '--definitions compares results, and cannot be used with --measured and --map')
+         return
+      end if
       if (line%has('--measured') .or. line%has('--map')) then
          call compare_measurement(line, error)
          return
@@ -50,6 +55,7 @@ contains
       is_quiet = line%has('--quiet')
       has_plots = (line%has('--plots') .or. line%has('--static')) .and. .not. line%has('--no-plots')
       call refuse_stream(line, error)
+      if (.not. allocated(error) .and. line%has('--definitions')) call check_program(line%value('--definitions'), error)
       if (.not. allocated(error)) call read_windows(line, windows, error)
       if (.not. allocated(error)) call read_threshold(line, this%threshold, error)
       if (.not. allocated(error) .and. line%has('--plots') .and. line%has('--no-plots')) &
@@ -60,7 +66,7 @@ contains
       this%is_static = line%has('--static')
       allocate (this%results(line%files%count()))
       do k = 1, size(this%results)
-         call read_results(line%files%line(k), windows, this%results(k), error)
+         call read_results(line%files%line(k), windows, this%results(k), error, line%value('--definitions'))
          if (allocated(error)) return
          if (this%results(k)%is_report .neqv. this%results(1)%is_report) then
             call fail(error, exit_usage, 'compare takes CSV files or report folders, not both: '//quoted(this%results(1)%path)// &
@@ -68,6 +74,8 @@ contains
             return
          end if
       end do
+      call check_definitions(line, this%results, error)
+      if (allocated(error)) return
       do k = 1, size(this%results)         ! equal names: the full paths distinguish them
          do l = 1, size(this%results)
             if (l == k .or. this%results(l)%label /= this%results(k)%label) cycle
@@ -117,6 +125,36 @@ contains
       call figures%finish(error)
       call keep_first(error, unprinted)
    end subroutine compare
+
+   !> Rejects results in different definitions, and tables in other definitions than those of --definitions.
+   subroutine check_definitions(line, results, error)
+      type(command_line_t), intent(in) :: line
+      type(results_t), intent(in) :: results(:)
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage
+      character(:), allocatable :: wanted, like
+      integer :: k
+
+      like = ''
+      if (.not. line%has('--definitions')) like = ', as in '//results(1)%path
+      wanted = line%value('--definitions', trim(results(1)%program))
+      do k = 1, size(results)
+         if (results(k)%program == wanted .or. allocated(error)) cycle
+         call fail(error, exit_usage, results(k)%path//' is in the definitions of '//name_of(trim(results(k)%program))// &
+            ', expected '//name_of(wanted)//like//'; write all results with the same --definitions')
+      end do
+
+   contains
+
+      !> The name of a program for a message.
+      function name_of(program) result(name)
+         character(*), intent(in) :: program
+         character(:), allocatable :: name
+
+         name = 'elastokin'
+         if (program /= '') name = title_of(program)
+      end function name_of
+
+   end subroutine check_definitions
 
    !> Prints the largest changes to standard error, at most ten.
    subroutine print_largest(is_quiet, this)

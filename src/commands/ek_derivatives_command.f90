@@ -1,4 +1,5 @@
-!> elastokin derivatives: derivatives of the columns of a case with respect to the numbers of the deck.
+!> elastokin derivatives: derivatives of the columns of a case with respect to the numbers of the deck; with --definitions, of the
+!> columns of another program.
 module ek_derivatives_command
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use ek_kinds, only: wp, i8
@@ -19,10 +20,15 @@ module ek_derivatives_command
    use ek_workspace, only: workspace_t, solve_or_explain
    use ek_session, only: session_t
    use ek_direction, only: direction_t, all_directions, find_directions, refuse_shared
+   use ek_quantity, only: unit_of
+   use ek_definition, only: check_program
+   use ek_defined_column, only: defined_t
    use ek_derivatives, only: derivatives_t, begin_derivatives, find_derivatives, refuse_case
+   use ek_defined_slopes, only: begin_defined, define_derivatives
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_session, spare_results
-   use ek_run_columns, only: choose_columns
+   use ek_run_columns, only: choose_columns, choose_defined
+   use ek_run_numbers, only: split_names
    use ek_outbox, only: outbox_t, outbox_in
    use ek_console, only: print_note, print_remarks, print_text
    implicit none(type, external)
@@ -41,13 +47,16 @@ contains
       type(deck_settings_t) :: settings
       class(session_t), allocatable :: session
       type(direction_t), allocatable :: directions(:)
-      type(derivatives_t) :: derivatives           ! as a class, a schedule in it would not be freed by gfortran 12
+      type(derivatives_t) :: derivatives, defined  ! as a class, a schedule in it would not be freed by gfortran 12
+      type(defined_t), allocatable :: list(:)
       type(error_t), allocatable :: unreached
       character(name_length), allocatable :: columns(:)
       integer, allocatable :: states(:)
       type(message_list_t) :: given
       integer :: k
 
+      if (line%has('--definitions')) call check_program(line%value('--definitions'), error)
+      if (allocated(error)) return
       call read_deck_settings(line, settings)
       given = line%values('--with')
       do k = 1, given%count()
@@ -71,12 +80,27 @@ contains
             plural(size(directions), 'number', 'numbers'), error)
          if (allocated(error)) return
          call begin_derivatives(workspace, k, columns, directions, derivatives)
+         if (line%has('--definitions')) call begin_defined(workspace, line%value('--definitions'), names_of(line), derivatives, &
+            list, defined)
          call find_derivatives(workspace, states, derivatives)
-         call write_results(line, settings, workspace, derivatives, error)
+         if (line%has('--definitions')) then
+            call define_derivatives(workspace, list, derivatives, defined)
+            call write_results(line, settings, workspace, defined, error)
+         else
+            call write_results(line, settings, workspace, derivatives, error)
+         end if
          call warn(settings, workspace, derivatives)
       end associate
       if (.not. allocated(error)) call move_alloc(unreached, error)
    end subroutine derive
+
+   !> The names of --of; * without --of.
+   function names_of(line) result(names)
+      type(command_line_t), intent(in) :: line
+      character(name_length), allocatable :: names(:)
+
+      call split_names(line%value('--of', '*'), names)
+   end function names_of
 
    !> Bytes of the derivatives and of their errors.
    pure integer(i8) function bytes_of(columns, numbers, states)
@@ -147,7 +171,7 @@ contains
       end do
    end subroutine split
 
-   !> Chooses the columns of --of, or all quantities of the case.
+   !> Chooses the columns of --of, or all quantities of the case; with --definitions, the columns that follow from them.
    subroutine choose_quantities(line, workspace, k, columns, error)
       type(command_line_t), intent(in) :: line
       type(workspace_t), intent(in) :: workspace
@@ -163,7 +187,10 @@ contains
       integer :: c
 
       case(1) = workspace%cases(k)%case
-      if (.not. line%has('--of')) then
+      if (line%has('--definitions')) then
+         call choose_defined(line%value('--definitions'), names_of(line), workspace%raw, case, columns, error, '--of')
+         return
+      else if (.not. line%has('--of')) then
          call choose_columns('*', workspace%raw, case, columns, error)
          return
       end if
@@ -341,7 +368,8 @@ contains
 
       do p = 1, size(effect)
          effect(p) = -1.0_wp
-         if (is_flat(found%slopes(c, p, s), found%directions(p)%step, trim(found%columns(c)), found%values(c, s))) cycle
+         if (is_flat(found%slopes(c, p, s), found%directions(p)%step, '_'//unit_of(trim(found%columns(c))), &
+            found%values(c, s))) cycle
          if (.not. ieee_is_nan(found%slopes(c, p, s))) effect(p) = abs(found%slopes(c, p, s))*found%directions(p)%step
       end do
       call list%line(trim(found%columns(c))//' = '//str(found%values(c, s), 7)//' at '//case%place_name//' = '// &

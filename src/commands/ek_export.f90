@@ -23,7 +23,7 @@ module ek_export
    use ek_carmaker, only: carmaker_text
    use ek_carsim, only: carsim_text
    use ek_mathworks, only: kandc_parameters_t, find_parameters, mathworks_script, mathworks_json, corner_names
-   use ek_plain_tables, only: kinematics_table, loads_table, compliance_of_map, tables_json
+   use ek_plain_tables, only: kinematics_table, defined_map_table, loads_table, compliance_of_map, tables_json
    use ek_export_sources, only: sources_t, solve_sources
    use ek_export_figure, only: panel_list_t, export_figure
    use ek_figure_script, only: figure_script
@@ -34,6 +34,8 @@ module ek_export
 
    character, parameter :: nl = new_line('a')
    character(10), parameter :: names(3) = [character(10) :: 'kinematics', 'loads', 'compliance']      !! tables of --to csv
+
+   character(*), parameter :: defined_ending = '_definitions.csv'      !! of the table of --definitions
 
    ! The formats, for --to and for the help
    character(*), parameter :: targets(*) = [character(9) :: 'carmaker', 'carsim', 'matlab-kc', 'csv']
@@ -115,6 +117,7 @@ contains
       do k = 1, merge(size(names), 0, settings%target == 'csv')
          call spare_results(trim(names(k)), workspace%deck_cases, error)
       end do
+      if (.not. allocated(error) .and. allocated(settings%program)) call spare_results('definitions', workspace%deck_cases, error)
       if (.not. allocated(error)) call make_request(settings, workspace%raw, workspace%deck_cases, axle%request, error)
       if (.not. allocated(error) .and. (settings%target == 'carmaker' .or. settings%target == 'matlab-kc')) &
          call front_of(settings, workspace%raw, axle%is_front, error)
@@ -123,7 +126,11 @@ contains
       axle%suspension = workspace%suspension
       call find_model_remarks(axle%suspension, workspace%raw, workspace%deck_cases, workspace%deck_cases, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks)
-      call solve_map(axle%suspension, axle%request, axle%map, error)
+      if (allocated(settings%program)) then
+         call solve_map(axle%suspension, axle%request, axle%map, error, settings%program)
+      else
+         call solve_map(axle%suspension, axle%request, axle%map, error)
+      end if
    end subroutine solve_axle
 
    subroutine write_carmaker(settings, axle, sources, panels, box, error)
@@ -257,6 +264,7 @@ contains
       do k = 1, 3
          call box%put(axle%map%model//'_'//trim(names(k))//'.csv', tables(k))
       end do
+      if (allocated(axle%map%defined)) call box%put(axle%map%model//defined_ending, defined_map_table(axle%map, axle%checksum))
       call box%put(axle%map%model//'_tables.json', tables_json(names, tables, axle%map, is_sae, axle%checksum))
       if (.not. settings%has_plots) return
       call csv_panels(axle%map, sources, axle%map%model//'_kinematics.csv', is_sae, panels)

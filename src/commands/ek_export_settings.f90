@@ -4,6 +4,7 @@ module ek_export_settings
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_deck
    use ek_text, only: str, quoted
    use ek_decimal, only: get_bounded
+   use ek_definition, only: check_program
    use ek_suspension, only: suspension_t, driver_row
    use ek_measure, only: is_of_angle
    use ek_case, only: case_t
@@ -25,6 +26,7 @@ module ek_export_settings
 
    type, extends(deck_settings_t) :: export_settings_t
       character(:), allocatable :: target, map, driver, vertical, held, axle, signs, other
+      character(:), allocatable :: program                   !! other program whose columns target csv also has; not allocated: none
       type(message_list_t) :: lengths
       type(range_t) :: travel, steer, loads
       logical :: has_plots = .false.
@@ -64,6 +66,12 @@ contains
          call mistakes%add('--other: only matlab-kc writes both axles in one file')
       if (settings%signs /= '' .and. settings%target /= 'csv') call mistakes%add('--signs: only csv has a choice of signs; '// &
          'carmaker and matlab-kc use ISO 8855, carsim uses the signs of CarSim')
+      if (line%has('--definitions')) then
+         settings%program = line%value('--definitions')
+         call check_program(settings%program, error)
+         if (allocated(error)) call mistakes%add(error%message)
+         if (settings%target /= 'csv') call mistakes%add('--definitions: only csv has columns of another program')
+      end if
       if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())
 
    contains

@@ -21,7 +21,7 @@ module ek_run
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
-   use ek_run_numbers, only: run_numbers
+   use ek_run_numbers, only: run_numbers, split_names
    use ek_run_columns, only: choose_columns, choose_defined
    use ek_defined_table, only: defined_table
    use ek_definition, only: check_program, label_of_heading
@@ -47,6 +47,7 @@ module ek_run
       logical :: is_named_only = .false.                    !! only the cases whose states have names
       character(name_length), allocatable :: columns(:)     !! columns of the tables; not allocated: all
       character(:), allocatable :: program                  !! whose definitions the tables have; not allocated: elastokin
+      character(name_length), allocatable :: names(:)       !! columns of the program in the tables
    end type settings_t
 
    character(*), parameter :: compliance_ending = '_compliance.csv'
@@ -82,10 +83,11 @@ contains
       if (allocated(error)) return
       call chosen_cases(settings, workspace%raw, workspace%deck_cases, chosen, error)
       if (settings%is_named_only .and. .not. allocated(error)) call keep_named(settings%file, chosen, error)
-      if (.not. allocated(error) .and. line%has('--columns')) &
+      if (.not. allocated(error) .and. allocated(settings%program)) then
+         call choose_defined(settings%program, settings%names, workspace%raw, chosen, settings%columns, error, '--columns')
+      else if (.not. allocated(error) .and. line%has('--columns')) then
          call choose_columns(line%value('--columns'), workspace%raw, chosen, settings%columns, error)
-      if (allocated(settings%program) .and. .not. allocated(error)) &
-         call choose_defined(settings%program, workspace%raw, chosen, settings%columns)
+      end if
       if (allocated(error)) return
       if (settings%out == '-' .and. size(chosen) > 1 .and. .not. settings%has_json) then
          call fail(error, exit_usage, '--out - writes one table, but '//settings%file//' has '//str(size(chosen))// &
@@ -173,7 +175,7 @@ contains
          call fail(error, exit_usage, '--plot draws all columns and cannot be used with --columns')
          return
       end if
-      if (line%has('--definitions')) call read_program(line, settings%program, error)
+      if (line%has('--definitions')) call read_program(line, settings, error)
       if (allocated(error)) return
       call refuse_with_responses(line, error)
       if (settings%out /= '-' .or. allocated(error)) return
@@ -186,17 +188,16 @@ contains
       end if
    end subroutine read_settings
 
-   !> Reads --definitions.
-   subroutine read_program(line, program, error)
+   !> Reads --definitions, and the names of its columns.
+   subroutine read_program(line, settings, error)
       type(command_line_t), intent(in) :: line
-      character(:), allocatable, intent(out) :: program
+      type(settings_t), intent(inout) :: settings
       type(error_t), allocatable, intent(out) :: error        !! exit_usage
 
-      program = line%value('--definitions')
-      call check_program(program, error)
+      settings%program = line%value('--definitions')
+      call check_program(settings%program, error)
       if (allocated(error)) return
-      if (line%has('--columns')) call fail(error, exit_usage, '--columns names columns of elastokin, and cannot be used with '// &
-         '--definitions, which writes all columns that the program defines')
+      call split_names(line%value('--columns', '*'), settings%names)
       if (line%has('--plot')) call fail(error, exit_usage, '--plot draws columns of elastokin, and cannot be used with '// &
          '--definitions; run once without it')
    end subroutine read_program
@@ -265,7 +266,7 @@ contains
       call print_remarks(settings%is_quiet, result%remarks)
       if (allocated(settings%program) .and. result%is_run()) then
          own = result%table
-         call defined_table(result%suspension, own, settings%program, result%table, rows)
+         call defined_table(result%suspension, own, settings%program, result%table, rows, names=settings%names)
       end if
       if (settings%has_json) call add_run_json(result, wanted, settings%program, rows, json)
       if (.not. result%is_run()) return
@@ -317,7 +318,7 @@ contains
             call found%table%header%add('target: '//found%column//' = '//str(found%wanted))
             if (allocated(settings%program)) then
                own = found%table
-               call defined_table(result%suspension, own, settings%program, found%table)
+               call defined_table(result%suspension, own, settings%program, found%table, names=settings%names)
             end if
             call box%put(name, found%table)
             call box%take(error)

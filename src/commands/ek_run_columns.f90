@@ -1,4 +1,4 @@
-!> run --columns a,b,c, run --definitions NAME: chooses the columns of the results that are computed.
+!> run --columns a,b,c and --definitions NAME: chooses the columns of the results that are computed.
 module ek_run_columns
    use ek_error, only: error_t, message_list_t, fail, exit_usage
    use ek_text, only: quoted, suggestion_by_part, is_like
@@ -9,6 +9,8 @@ module ek_run_columns
    use ek_target, only: find_column
    use ek_table, only: name_length
    use ek_run_numbers, only: split_names
+   use ek_definition, only: title_of
+   use ek_defined_column, only: defined_t, define_columns, keep_named, is_named
    use ek_defined_table, only: needed_columns
    implicit none(type, external)
    private
@@ -73,24 +75,46 @@ contains
 
    end subroutine choose_columns
 
-   !> Chooses the columns of elastokin that the definitions of a program need, and the columns of the targets of the cases. The
-   !> cases are set to compute all quantities.
-   subroutine choose_defined(program, suspension, cases, columns)
+   !> Chooses the columns of elastokin that columns of another program need, and the columns of the targets of the cases. The cases
+   !> are set to compute all quantities.
+   subroutine choose_defined(program, names, suspension, cases, columns, error, option)
       character(*), intent(in) :: program               !! one of `programs`
+      character(*), intent(in) :: names(:)              !! names of columns of the program (is_named)
       type(suspension_t), intent(in) :: suspension      !! model on no rig
       type(case_t), intent(inout) :: cases(:)
       character(name_length), allocatable, intent(out) :: columns(:)
-      character(name_length), allocatable :: heads(:)
-      integer :: c
+      type(error_t), allocatable, intent(out) :: error  !! exit_usage: all names that name no column
+      character(*), intent(in) :: option                !! name of the option with the names, for messages
+      type(defined_t), allocatable :: list(:)
+      type(message_list_t) :: mistakes
+      character(name_length), allocatable :: heads(:), all(:)
+      logical :: is_known(size(names))
+      integer :: c, j, k
 
-      allocate (columns(0))
+      allocate (columns(0), all(0))
+      is_known = .false.
       cases%has_all = .true.
       do c = 1, size(cases)
          if (.not. is_mountable(cases(c))) cycle
          call heads_on_rig(suspension, cases(c), heads)
-         call needed_columns(suspension, heads, program, columns)
+         call define_columns(suspension, heads, program, list)
+         do k = 1, size(list)
+            all = [character(name_length) :: all, list(k)%head]
+            do j = 1, size(names)
+               is_known(j) = is_known(j) .or. is_named(list(k), trim(names(j)))
+            end do
+         end do
+         call keep_named(names, list)
+         call needed_columns(heads, list, columns)
          call take_target(cases(c), heads, columns)
       end do
+      do j = 1, size(names)
+         if (.not. is_known(j) .and. names(j) /= '*') call mistakes%add(option//': no column '//quoted(trim(names(j)))// &
+            ' in the definitions of '//title_of(program)//suggestion_by_part(trim(names(j)), all)// &
+            '; elastokin list --definitions '//program//' lists all')
+      end do
+      if (size(names) == 0) call mistakes%add(option//': no column is named')
+      if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())
    end subroutine choose_defined
 
    !> Adds the column of the target of a case.

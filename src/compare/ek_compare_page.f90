@@ -5,6 +5,7 @@ module ek_compare_page
    use ek_error, only: message_list_t
    use ek_text, only: str, plural
    use ek_version, only: version
+   use ek_definition, only: title_of
    use ek_test_result, only: design_row
    use ek_page, only: page_t, begin_page, begin_section, add_warnings, add_facts, begin_table, add_cell, end_table, add_text, &
       add_legend, add_charts, begin_fold, end_fold, end_text, set_data, page_text, page_number
@@ -39,6 +40,10 @@ contains
       end do
       call names%add('Program')
       call values%add('elastokin '//version)
+      if (this%results(1)%program /= '') then
+         call names%add('Definitions')
+         call values%add(title_of(trim(this%results(1)%program)))
+      end if
       call begin_page(page, 'Comparison', 'What was changed, and what it did; every result against A', &
          this%is_static)
       call add_facts(page, names, values)

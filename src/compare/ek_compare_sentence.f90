@@ -82,6 +82,7 @@ contains
          call find_items(this, r, items)
          effects = effects_text(items)
          if (size(this%numbers) == 0) effects = gradient_text(this)
+         if (this%results(1)%program /= '') effects = program_text(this)
          line = effects//cause_text(this%results, this%deck, r)//settings_text(this%results, this%deck, this%facts, r)
          if (size(this%results) > 2) line = letter_of(r)//': '//line
          call lines%add(line)
@@ -111,6 +112,18 @@ contains
       text = 'no gradient changed by more than '//str(100*this%threshold, 4)//' %'
       if (largest%count() > 0) text = largest%line(1)
    end function gradient_text
+
+   !> The largest change of a number in the definitions of another program, or the number of curves that changed.
+   function program_text(this) result(text)
+      type(comparison_t), intent(in) :: this
+      character(:), allocatable :: text
+      type(message_list_t) :: largest
+
+      largest = largest_lines(this%shown, this%threshold, 1)
+      text = str(count(this%changes%is_changed))//' of '//str(size(this%changes))//' charts changed by more than '// &
+         str(100*this%threshold, 4)//' %'
+      if (largest%count() > 0) text = largest%line(1)
+   end function program_text
 
    !> Finds the changes of result r, sorted: changes of a word first, then by size; one for each fact.
    subroutine find_items(this, r, items)

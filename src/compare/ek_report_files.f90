@@ -5,7 +5,8 @@ module ek_report_files
    use ek_error, only: error_t, fail, exit_file
    use ek_text, only: str, quoted, lower
    use ek_file, only: join_path, base_name, file_exists, folder_exists
-   use ek_definition, only: definitions_mark
+   use ek_definition, only: title_of
+   use ek_test_charts, only: program_of
    use ek_table, only: read_csv, name_length
    use ek_decimal, only: get_decimal
    use ek_gnuplot_text, only: one_line
@@ -14,7 +15,8 @@ module ek_report_files
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa, read_frame_line
    use ek_gradient, only: gradient_t, test_gradients, read_gradients
    use ek_gradient_definition, only: windows_t
-   use ek_report_names, only: contents_file, gradients_file, numbers_file, deck_file, is_table_of_report
+   use ek_report_names, only: contents_file, gradients_file, numbers_file, deck_file, is_table_of_report, &
+      definitions_folder, definitions_file
    use ek_deck_file, only: deck_record_t, read_deck_file, facts_of_table
    implicit none(type, external)
    private
@@ -31,6 +33,7 @@ module ek_report_files
       type(gradient_t), allocatable :: gradients(:)
       type(gradient_t), allocatable :: numbers(:)        !! key numbers: test = group, column = name, window = condition
       type(deck_record_t) :: deck            !! deck of the report, as far as it is known
+      character(10) :: program = ''          !! other program whose definitions the tables have; '': elastokin
    end type results_t
 
 contains
@@ -106,11 +109,12 @@ contains
 
    !> Reads a report folder, or one CSV file. The gradients of a CSV file are computed. All files listed in the contents of a folder
    !> must be in the folder itself.
-   subroutine read_results(path, windows, results, error)
+   subroutine read_results(path, windows, results, error, program)
       character(*), intent(in) :: path
       type(windows_t), intent(in) :: windows
       type(results_t), intent(out) :: results
       type(error_t), allocatable, intent(out) :: error     !! exit_file, with path and line
+      character(*), intent(in), optional :: program        !! other program, in whose definitions a report is read
       type(text_table_t) :: contents
       integer :: k
 
@@ -122,6 +126,7 @@ contains
          allocate (results%tests(1))
          call read_test(path, 'results', results%tests(1), error, may_stream=.true.)
          if (allocated(error)) return
+         results%program = program_of(results%tests(1)%table)
          results%tests(1)%table%is_of_rows = .true.         ! the states of a table cannot be chosen
          call test_gradients(results%tests(1), windows, results%gradients)
          call facts_of_table(results%tests(1)%table, results%deck)
@@ -133,6 +138,11 @@ contains
       end if
       call read_text_table(join_path(path, contents_file), contents, error)
       if (allocated(error)) return
+      if (present(program)) results%program = program
+      if (results%program /= '') then
+         call read_defined_report(path, contents, results, error)
+         return
+      end if
       allocate (results%tests(contents%rows))
       do k = 1, contents%rows
          if (.not. (is_file_name(cell_of(contents, k, 'file')) .and. is_file_name(cell_of(contents, k, 'test')))) then
@@ -223,11 +233,6 @@ contains
       do k = 1, test%table%header%count()
          line = test%table%header%line(k)
          call read_frame_line(line, test%is_iso, side)
-         if (index(line, definitions_mark) == 1) then
-            call fail(error, exit_file, path//' is in other '//line(:index(line//')', ')'))// &
-               '; expected columns of elastokin: run without --definitions')
-            return
-         end if
          if (index(line, mark) /= 1 .or. index(line, size_mark) == 0) cycle
          at = index(line, ',')
          test%kind = line(len(mark) + 1:at - 1)
@@ -237,11 +242,100 @@ contains
          if (.not. is_number) test%factor_size = 1.0_wp
       end do
       call find_wheels(test, side)
+      if (program_of(test%table) /= '') call take_swept_value(test)
       call choose_abscissa(test)
       ! a table of `run` does not state its kind: with the travel as abscissa it is treated as parallel travel
       if (test%kind == 'other' .and. test%abscissa /= 'factor') test%kind = 'parallel_travel'
       call suit_table(test)
    end subroutine read_test
+
+   !> Makes the swept value the abscissa of a table in the definitions of another program, which does not have the columns of
+   !> elastokin. The header gives its label and the kind of the test: 'factor: wheel travel [mm], test parallel_travel'.
+   pure subroutine take_swept_value(test)
+      type(test_result_t), intent(inout) :: test
+      character(*), parameter :: factor_mark = 'factor: ', test_mark = ', test '
+      character(:), allocatable :: line
+      integer :: k, at
+
+      test%abscissa = 'factor'
+      test%label = 'factor'
+      do k = 1, test%table%header%count()
+         line = test%table%header%line(k)
+         if (index(line, factor_mark) /= 1) cycle
+         line = line(len(factor_mark) + 1:)
+         at = index(line//test_mark, test_mark)
+         test%label = line(:at - 1)
+         if (at <= len(line)) test%kind = line(at + len(test_mark):)
+      end do
+   end subroutine take_swept_value
+
+   !> Reads the tables and the numbers at design of a report that was written with --definitions.
+   subroutine read_defined_report(path, contents, results, error)
+      character(*), intent(in) :: path
+      type(text_table_t), intent(in) :: contents           !! tests.csv
+      type(results_t), intent(inout) :: results            !! its `program` is known
+      type(error_t), allocatable, intent(out) :: error     !! exit_file
+      type(test_result_t) :: test
+      character(:), allocatable :: file
+      integer :: k
+
+      allocate (results%tests(0), results%gradients(0))
+      do k = 1, contents%rows
+         file = cell_of(contents, k, 'file')
+         if (.not. (is_file_name(file) .and. is_file_name(cell_of(contents, k, 'test')))) cycle
+         file = join_path(path, definitions_folder//'/'//file)
+         if (.not. file_exists(file)) cycle
+         call read_test(file, cell_of(contents, k, 'test'), test, error)
+         if (allocated(error)) return
+         if (program_of(test%table) /= results%program) exit
+         test%title = cell_of(contents, k, 'title')
+         results%tests = [results%tests, test]
+      end do
+      if (size(results%tests) == 0) then
+         call fail(error, exit_file, quoted(path)//' has no tables in the definitions of '//title_of(trim(results%program))// &
+            ': write the report with --definitions '//trim(results%program))
+         return
+      end if
+      call read_defined_numbers(join_path(path, definitions_file), results%numbers, error)
+      if (.not. allocated(error)) call read_deck_file(join_path(path, deck_file), results%deck, error)
+      if (.not. allocated(error)) call facts_of_table(results%tests(1)%table, results%deck)
+   end subroutine read_defined_report
+
+   !> Reads definitions.csv as key numbers: the printed quantities at design.
+   subroutine read_defined_numbers(path, numbers, error)
+      character(*), intent(in) :: path
+      type(gradient_t), allocatable, intent(out) :: numbers(:)
+      type(error_t), allocatable, intent(out) :: error     !! exit_file, with path and line
+      type(text_table_t) :: table
+      logical :: is_number
+      integer :: k, used
+
+      allocate (numbers(0))
+      if (.not. file_exists(path)) return
+      call read_text_table(path, table, error)
+      if (allocated(error)) return
+      deallocate (numbers)
+      allocate (numbers(table%rows))
+      used = 0
+      do k = 1, table%rows
+         if (cell_of(table, k, 'value') == '') cycle        ! not printed
+         used = used + 1
+         associate (n => numbers(used))
+            n%test = 'At design'
+            n%quantity = cell_of(table, k, 'name')
+            n%side = cell_of(table, k, 'of')
+            n%unit = cell_of(table, k, 'unit')
+            n%window = 'at design'
+            n%column = trim(adjustl(n%side//' '//n%quantity))
+            call get_decimal(cell_of(table, k, 'value'), n%value, is_number)
+            if (is_number) cycle
+            call fail(error, exit_file, path//':'//str(table%lines(k))//': '//quoted(cell_of(table, k, 'value'))// &
+               ' is not a number')
+            return
+         end associate
+      end do
+      numbers = numbers(:used)
+   end subroutine read_defined_numbers
 
    !> Completes a table of another program or a part of a table: without a column of wheel travel, the prefixes left_ and right_ give
    !> the wheels; without the abscissa of its test, the first column is the abscissa if it rises or falls from row to row.

@@ -385,6 +385,7 @@ module ek_group
       key_t(study_group, 'methods', word, 1, 3, .false.), &
       key_t(study_group, 'increments', whole, 1, max_values, .false.), &
       key_t(study_group, 'columns', heading, 1, 20, .false.), &
+      key_t(study_group, 'definitions', word, 1, 1, .false.), &
       key_t(study_group, 'samples', whole, 1, 1, .false.), &
       key_t(study_group, 'levels', whole, 1, 1, .false.), &
       key_t(study_group, 'seed', long_whole, 1, 1, .false.), &

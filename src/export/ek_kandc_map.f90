@@ -14,6 +14,8 @@ module ek_kandc_map
    use ek_state, only: state_t, inputs_t, design_state, unpack_state
    use ek_schedule, only: schedule_t, new_schedule, inputs_at
    use ek_compliance, only: compliance_t, new_compliance, wheel_compliance
+   use ek_table, only: table_t, new_table
+   use ek_defined_table, only: defined_table
    use ek_case_result, only: case_result_t
    use ek_wheel_motion, only: mirrored, iso_loads, iso_frame, mirror_signs, lengths, quantities, at_rz
    use ek_held_compliance, only: held_compliance
@@ -38,16 +40,18 @@ module ek_kandc_map
       logical :: is_mirrored(2) = .false.          !! the deck has no wheel on this side
       real(wp) :: track = 0.0_wp                   !! distance of the contact points at design [m]
       character(63) :: length_labels(lengths, 2) = ''
+      type(table_t), allocatable :: defined        !! columns of another program; rows as in a table, `second` changes fastest
    end type kandc_map_t
 
 contains
 
    !> Solves a map. `suspension` must have its preload trim (`balance`) applied, and must not be on a rig.
-   subroutine solve_map(suspension, request, map, error)
+   subroutine solve_map(suspension, request, map, error, program)
       type(suspension_t), intent(in) :: suspension
       type(map_request_t), intent(in) :: request
       type(kandc_map_t), intent(out) :: map
       type(error_t), allocatable, intent(out) :: error      !! exit_model, exit_convergence
+      character(*), intent(in), optional :: program         !! the map also has the columns of this program (`defined`)
       real(wp), allocatable :: heights(:, :), steer(:)
       integer, allocatable :: at(:, :)
       class(case_result_t), allocatable :: result
@@ -59,8 +63,9 @@ contains
       if (map%kind == over_steer) call find_sign(suspension, request, map, error)
       if (allocated(error)) return
       call order_rows(map, wheels, heights, steer, at)
-      call solve_rows(suspension, request, heights, steer*map%driver_sign, result, error)
+      call solve_rows(suspension, request, heights, steer*map%driver_sign, result, error, program)
       if (allocated(error)) return
+      if (present(program)) call take_defined(result, program, at, map)
       call take_values(suspension, request, result, wheels, at, map)
       call take_compliance(result, wheels, map, error)
       if (allocated(error) .or. .not. any(wheels == 0)) return
@@ -162,13 +167,14 @@ contains
    end subroutine order_rows
 
    !> Solves states with given heights of the wheel centres and positions of the steering driver. All states must converge.
-   subroutine solve_rows(suspension, request, heights, steer, result, error)
+   subroutine solve_rows(suspension, request, heights, steer, result, error, program)
       type(suspension_t), intent(in) :: suspension
       type(map_request_t), intent(in) :: request
       real(wp), intent(in) :: heights(:, :)      !! (side, row) [m]
       real(wp), intent(in) :: steer(:)           !! value of the driver [m]
       type(case_result_t), intent(out) :: result
       type(error_t), allocatable, intent(out) :: error
+      character(*), intent(in), optional :: program        !! see solve_table
       type(load_table_t) :: table
       character(:), allocatable :: vertical
       integer :: wheels(2), side
@@ -183,7 +189,7 @@ contains
       if (request%kind == over_steer) call add_column(table, request%driver, 0, 0, steer)
       vertical = request%vertical
       if (vertical == 'centre') vertical = ''        ! the columns of a table hold the centres by themselves
-      call solve_table(suspension, table, vertical, result, error)
+      call solve_table(suspension, table, vertical, result, error, program)
    end subroutine solve_rows
 
    !> Copies the solved rows to their positions in the grid.
@@ -209,6 +215,25 @@ contains
       end do
       if (size(suspension%wheels) == 0) map%value = 0.0_wp
    end subroutine take_values
+
+   !> Copies the columns of another program to the rows of the grid.
+   subroutine take_defined(result, program, at, map)
+      type(case_result_t), intent(in) :: result
+      character(*), intent(in) :: program
+      integer, intent(in) :: at(:, :)
+      type(kandc_map_t), intent(inout) :: map
+      type(table_t) :: solved
+      integer, allocatable :: rows(:), columns(:)
+      integer :: k
+
+      call defined_table(result%suspension, result%table, program, solved, rows)
+      columns = pack([(k, k=1, size(rows))], rows > 0)
+      map%defined = new_table(solved%columns(columns), size(map%travel)*size(map%second))
+      map%defined%header = solved%header
+      do k = 2, size(at, 2)
+         map%defined%values(:, (at(1, k) - 1)*size(map%second) + at(2, k)) = solved%values(columns, k)
+      end do
+   end subroutine take_defined
 
    !> Computes the compliance at the design state, which is the first row of the result.
    subroutine take_compliance(result, wheels, map, error)

@@ -16,7 +16,7 @@ module ek_plain_tables
    use ek_load_response, only: load_table_result_t, load_parts, load_heads
    implicit none(type, external)
    private
-   public :: kinematics_table, loads_table, compliance_of_map, tables_json
+   public :: kinematics_table, defined_map_table, loads_table, compliance_of_map, tables_json
 
    character(*), parameter :: heads(quantities) = [character(18) :: 'x_mm', 'y_mm', 'z_mm', 'rx_deg', 'ry_deg', 'rz_deg', &
       'spring_length_mm', 'damper_length_mm', 'stop_length_mm', 'bar_length_mm', 'toe_deg', 'camber_deg', 'caster_deg', &
@@ -62,9 +62,7 @@ contains
       sizes = unit_sizes(is_sae)
       n = size(map%second)
       call wheel_columns(columns, 2)
-      columns(1) = 'travel_mm'
-      columns(2) = 'steer_mm'
-      if (map%kind == over_opposite) columns(:2) = [character(name_length) :: 'left_travel_mm', 'right_travel_mm']
+      columns(:2) = arguments(map)
       table = new_table(columns, size(map%travel)*n)
       call add_head(table, map, is_sae, checksum)
       row = 0
@@ -81,6 +79,37 @@ contains
          end do
       end do
    end function kinematics_table
+
+   !> The table of kinematics in the definitions of another program, one row per point of the map: travel, steer or opposite travel,
+   !> then the columns of the program. For a deck with one wheel, the table has the columns of this wheel only.
+   function defined_map_table(map, checksum) result(table)
+      type(kandc_map_t), intent(in) :: map               !! with `defined`
+      character(*), intent(in) :: checksum
+      type(table_t) :: table
+      integer :: i, j, k, n
+
+      n = size(map%second)
+      table = new_table([character(name_length) :: arguments(map), map%defined%columns], size(map%travel)*n)
+      call add_source(table, map, checksum)
+      do k = 1, map%defined%header%count()
+         call table%header%add(map%defined%header%line(k))
+      end do
+      do i = 1, size(map%travel)
+         do j = 1, n
+            table%values(:2, (i - 1)*n + j) = [map%travel(i), map%second(j)]/millimetre
+         end do
+      end do
+      table%values(3:, :) = map%defined%values
+   end function defined_map_table
+
+   !> The headings of the arguments of a map.
+   pure function arguments(map) result(columns)
+      type(kandc_map_t), intent(in) :: map
+      character(name_length) :: columns(2)
+
+      columns = [character(name_length) :: 'travel_mm', 'steer_mm']
+      if (map%kind == over_opposite) columns = [character(name_length) :: 'left_travel_mm', 'right_travel_mm']
+   end function arguments
 
    !> Allocates `before` columns, and the columns of both wheels.
    subroutine wheel_columns(columns, before)
@@ -189,16 +218,26 @@ contains
       character(*), intent(in) :: checksum
       integer :: side
 
-      call table%header%add('elastokin '//version//', model '//map%model//', deck checksum '//checksum)
-      call table%header%add(frame_text(is_sae))
-      call table%header%add('travel: height of the '//trim(place(map))//' above design, positive up')
-      if (map%kind == over_steer) call table%header%add('steer: driver '//map%driver//' times '//str(map%driver_sign)// &
-         ', positive: wheels to the left')
+      call add_source(table, map, checksum, is_sae)
       do side = 1, 2
          if (map%is_mirrored(side)) call table%header%add(trim(side_name(side))// &
             ' wheel: mirror image of the other; the deck has one wheel')
       end do
    end subroutine add_head
+
+   !> Adds the header lines on program, deck, frame and arguments.
+   subroutine add_source(table, map, checksum, is_sae)
+      type(table_t), intent(inout) :: table
+      type(kandc_map_t), intent(in) :: map
+      character(*), intent(in) :: checksum
+      logical, intent(in), optional :: is_sae              !! absent: no line on the frame
+
+      call table%header%add('elastokin '//version//', model '//map%model//', deck checksum '//checksum)
+      if (present(is_sae)) call table%header%add(frame_text(is_sae))
+      call table%header%add('travel: height of the '//trim(place(map))//' above design, positive up')
+      if (map%kind == over_steer) call table%header%add('steer: driver '//map%driver//' times '//str(map%driver_sign)// &
+         ', positive: wheels to the left')
+   end subroutine add_source
 
    !> Phrase for the point whose height defines the wheel travel.
    pure function place(map) result(text)

@@ -9,7 +9,10 @@ module ek_rig_rows
    use ek_state, only: state_t, inputs_t, design_state, unpack_state
    use ek_schedule, only: schedule_t, new_schedule, inputs_at
    use ek_case_result, only: case_result_t, solve_options_t, add_remarks
-   use ek_lone_case, only: solve_sound
+   use ek_defined_column, only: defined_t, define_columns
+   use ek_defined_table, only: needed_columns
+   use ek_table, only: name_length
+   use ek_lone_case, only: solve_sound, heads_on_rig
    use ek_wheel_motion, only: wheel_motion, lengths, length_choice_t, quantities
    implicit none(type, external)
    private
@@ -50,12 +53,13 @@ contains
    end subroutine add_column
 
    !> Solves the rows of a table. If rows do not converge, the error gives their number and the first of these rows.
-   subroutine solve_table(suspension, table, vertical, result, error)
+   subroutine solve_table(suspension, table, vertical, result, error, program)
       type(suspension_t), intent(in) :: suspension
       type(load_table_t), intent(in) :: table
       character(*), intent(in) :: vertical                  !! 'centre', 'road'; '': as the columns determine
       type(case_result_t), intent(out) :: result
       type(error_t), allocatable, intent(out) :: error      !! exit_model, exit_convergence
+      character(*), intent(in), optional :: program         !! the result has the columns that the columns of this program need
       type(case_t) :: case
       type(solve_options_t) :: options
       character(:), allocatable :: reason
@@ -66,6 +70,7 @@ contains
       case%table = table
       allocate (options%columns(0))
       options%is_compared = .false.
+      if (present(program)) call ask_columns(suspension, program, case, options%columns)
       call solve_sound(suspension, case, options, result, error)
       if (allocated(error)) return
       call add_remarks(options, result)
@@ -87,6 +92,21 @@ contains
          ' states of the export did not converge, so nothing was written; the first:'//reason// &
          '. Use a shorter range (--travel, --steer, --loads), or more points'//new_line('a')//result%remarks%failures())
    end subroutine solve_table
+
+   !> Lists the columns of elastokin that the columns of another program need, and lets the case compute all quantities.
+   subroutine ask_columns(suspension, program, case, columns)
+      type(suspension_t), intent(in) :: suspension
+      character(*), intent(in) :: program
+      type(case_t), intent(inout) :: case
+      character(name_length), allocatable, intent(inout) :: columns(:)     !! receives the names
+      character(name_length), allocatable :: heads(:)
+      type(defined_t), allocatable :: list(:)
+
+      case%has_all = .true.
+      call heads_on_rig(suspension, case, heads)
+      call define_columns(suspension, heads, program, list)
+      call needed_columns(heads, list, columns)
+   end subroutine ask_columns
 
    !> Computes the quantities of ek_wheel_motion of one wheel in all rows: (quantity, row). All rows must have converged.
    subroutine motions(result, wheel, choices, values)

@@ -1,6 +1,6 @@
 !> The standard charts of a test: one per quantity, in the order of charted (ek_quantity). One chart each follows for the motion
 !> ratios, for springs, dampers and stops, for anti-roll bars, and for bushings and joints. Quantities without a column or
-!> without a value are omitted.
+!> without a value are omitted. A table in the definitions of another program has one chart per definition instead.
 module ek_test_charts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -9,11 +9,14 @@ module ek_test_charts
    use ek_table, only: table_t, name_length, column_index, row_count
    use ek_test_result, only: test_result_t, converged_rows, design_row, wheel_column, has_column, wheel_word
    use ek_quantity, only: quantity_t, charted, quantity_named, label_of, without_phase, unit_of, unit_text
+   use ek_quantity, only: unit_size
+   use ek_definition_rows, only: definition_t, definitions
+   use ek_definition, only: rows_of, heading, own_unit_size, definitions_mark
    use ek_contact, only: states_in_contact
    use ek_chart, only: chart_t, trace_t, new_chart, add_trace, set_level, both_sides
    implicit none(type, external)
    private
-   public :: test_charts, quantity_chart, ending_chart, bushing_chart
+   public :: test_charts, quantity_chart, ending_chart, bushing_chart, program_of
 
    real(wp), parameter :: longest_arm = 20000.0_wp   !! longest swing arm that is drawn [mm]: its length passes through infinity
    real(wp), parameter :: widest_circle = 60.0_wp    !! largest turning circle that is drawn [m]: it is infinite without steering
@@ -31,12 +34,19 @@ contains
       character(48), allocatable :: columns(:)
       type(chart_t), allocatable :: drawn(:)
       logical, allocatable :: is_in_contact(:)
+      integer, allocatable :: rows(:)
       integer :: k, used
 
       allocate (columns, source=charted(test%kind))
       call states_in_contact(test%table, is_in_contact)
-      allocate (drawn(size(columns) + 4))
+      rows = rows_of(program_of(test%table))
+      if (size(rows) > 0) deallocate (columns)
+      if (size(rows) > 0) allocate (columns(0))
+      allocate (drawn(size(columns) + size(rows) + 4))
       used = 0
+      do k = 1, size(rows)
+         call take(defined_chart(test, definitions(rows(k))))
+      end do
       do k = 1, size(columns)
          if (columns(k) == test%abscissa) cycle
          if (columns(k) == 'toe_deg' .and. has_column(test, 'steer_deg') .and. any(columns == 'steer_deg')) cycle
@@ -164,6 +174,58 @@ contains
          if (place > 0) call add_column(chart, test, wheel, place, wheel_word(test%prefixes(wheel)), wheel, merge(1, 0, wheel > 1))
       end do
    end function quantity_chart
+
+   !> The program whose definitions a table has, from its header; '' for a table of elastokin.
+   pure function program_of(table) result(program)
+      type(table_t), intent(in) :: table
+      character(:), allocatable :: program
+      integer :: k
+
+      program = ''
+      do k = 1, table%header%count()
+         if (index(table%header%line(k), definitions_mark) /= 1) cycle
+         program = table%header%line(k)
+         program = program(len(definitions_mark) + 1:)
+         program = program(:index(program//' ', ' ') - 1)
+         return
+      end do
+   end function program_of
+
+   !> The chart of a definition of another program: a curve for each wheel or element, or for the axle. The least span is that of
+   !> the nearest quantity of elastokin.
+   pure type(chart_t) function defined_chart(test, row) result(chart)
+      type(test_result_t), intent(in) :: test
+      type(definition_t), intent(in) :: row
+      character(:), allocatable :: label, name, of, head
+      type(quantity_t) :: nearest
+      integer :: k, last
+
+      label = trim(row%unit)
+      if (row%positive /= '') label = label//'    (+ '//trim(row%positive)//')'
+      name = trim(row%name)
+      do k = 1, len(name)
+         if (verify(name(k:k), '0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz') > 0) name(k:k) = '_'
+      end do
+      chart = chart_of(test, name, trim(row%name), label)
+      nearest = quantity_named(trim(row%ours))
+      chart%noise = nearest%span*unit_size(trim(row%ours))/own_unit_size(row%unit)
+      head = heading(row, '')
+      do k = 1, size(test%table%columns)
+         last = len_trim(test%table%columns(k)) - len(head)
+         if (last < 0) cycle
+         if (test%table%columns(k) (last + 1:) /= head) cycle
+         of = trim(test%table%columns(k) (:last))
+         if (last > 0) then
+            if (test%table%columns(k) (last:last) /= ' ' .or. scan(of, ' ') > 0) cycle      ! another name with the same ending
+         end if
+         chart%has_key = chart%has_key .or. .not. any(of == [character(5) :: '', 'left', 'right'])
+         call add_column(chart, test, side_of(test, of), k, of, merge(2, 1, index(of, 'right') == 1), &
+            merge(1, 0, index(of, 'right') == 1))
+      end do
+      do k = 1, merge(size(chart%traces), 0, chart%has_key)
+         chart%traces(k)%colour = k
+      end do
+   end function defined_chart
 
    !> The chart of all columns with a suffix, labelled by the name before the suffix. Only the first eight columns are drawn.
    !> The columns of wheels and axle are omitted.

@@ -8,7 +8,9 @@ module ek_case_slopes
    use ek_case_result, only: solve_options_t
    use ek_number_reach, only: lacks_state
    use ek_workspace, only: workspace_t, solve_numbers, solve_or_explain, succeeded
+   use ek_defined_column, only: defined_t
    use ek_derivatives, only: derivatives_t, find_derivatives
+   use ek_defined_slopes, only: define_derivatives
    implicit none(type, external)
    private
    public :: case_slopes_t, solve_with_slopes, move_table
@@ -19,9 +21,11 @@ module ek_case_slopes
       real(wp) :: required = huge(1.0_wp)                    !! swept value within which no state may be missing
       logical :: reads_all = .false.                         !! numbers are read at all states, not only at the places of the case
       type(derivatives_t), allocatable :: derivatives        !! derivatives of the columns at the states
+      type(defined_t), allocatable :: list(:)                !! columns of another program in the table (begin_defined), if any
+      type(derivatives_t), allocatable :: defined            !! derivatives of these columns
       type(table_t) :: table !! table of the last solved design: quantities and entries of the compliance matrix
       type(table_t) :: moved                                 !! `table`, moved along a direction (move_table)
-      integer, allocatable :: place(:)                       !! index in `table` of each column of the derivatives
+      integer, allocatable :: place(:), place_defined(:)     !! index in `table` of each column of the derivatives
       integer, allocatable :: row(:)                         !! row in `table` of each state of the derivatives
    end type case_slopes_t
 
@@ -36,7 +40,7 @@ contains
       logical, intent(out) :: is_valid
       type(error_t), allocatable :: error
       integer, allocatable :: states(:)
-      integer :: c, k, s, outcome
+      integer :: c, k, outcome
 
       is_valid = is_solved
       if (.not. is_valid) then
@@ -53,14 +57,29 @@ contains
          states = pack([(k, k=1, result%path%states)], result%path%is_reached .and. (this%reads_all .or. result%path%is_read))
          call find_derivatives(workspace, states, derivatives)
          call make_table(result%table, derivatives, this%table, this%place, this%row)
-         do s = 1, size(states)
-            do c = 1, size(derivatives%columns)
-               this%table%values(this%place(c), this%row(s)) = derivatives%values(c, s)
-            end do
-         end do
+         call put_values(derivatives, this%place, this%row, this%table)
+         if (allocated(this%list)) then
+            call define_derivatives(workspace, this%list, derivatives, this%defined)
+            this%place_defined = [(column_index(this%table, trim(this%list(c)%head)), c=1, size(this%list))]
+            call put_values(this%defined, this%place_defined, this%row, this%table)
+         end if
          this%moved = this%table
       end associate
    end subroutine solve_with_slopes
+
+   !> Puts the values of differentiated columns into a table.
+   pure subroutine put_values(derivatives, place, row, table)
+      type(derivatives_t), intent(in) :: derivatives
+      integer, intent(in) :: place(:), row(:)                !! indices in the table of each column and of each state
+      type(table_t), intent(inout) :: table
+      integer :: c, s
+
+      do s = 1, size(row)
+         do c = 1, size(place)
+            table%values(place(c), row(s)) = derivatives%values(c, s)
+         end do
+      end do
+   end subroutine put_values
 
    !> Builds a table of the columns of a case and of the differentiated entries of its compliance matrix. Also finds the columns and
    !> the rows of the derivatives in the table.
@@ -86,16 +105,29 @@ contains
       integer, intent(in) :: p                               !! index of the direction
       real(wp), intent(in) :: distance                       !! distance in the unit of the direction
       type(case_slopes_t), intent(inout) :: this
+
+      call move_columns(this%derivatives, p, distance, this%place, this%row, this%table, this%moved)
+      if (allocated(this%list)) call move_columns(this%defined, p, distance, this%place_defined, this%row, this%table, this%moved)
+   end subroutine move_table
+
+   !> Moves differentiated columns of a table.
+   pure subroutine move_columns(derivatives, p, distance, place, row, table, moved)
+      type(derivatives_t), intent(in) :: derivatives
+      integer, intent(in) :: p                               !! index of the direction
+      real(wp), intent(in) :: distance                       !! distance in the unit of the direction
+      integer, intent(in) :: place(:), row(:)                !! indices in the table of each column and of each state
+      type(table_t), intent(in) :: table
+      type(table_t), intent(inout) :: moved                  !! the table, whose columns move
       real(wp) :: slope
       integer :: c, s
 
-      do s = 1, size(this%row)
-         do c = 1, size(this%place)
-            slope = this%derivatives%slopes(c, p, s)
+      do s = 1, size(row)
+         do c = 1, size(place)
+            slope = derivatives%slopes(c, p, s)
             if (.not. ieee_is_finite(slope)) slope = 0.0_wp
-            this%moved%values(this%place(c), this%row(s)) = this%table%values(this%place(c), this%row(s)) + distance*slope
+            moved%values(place(c), row(s)) = table%values(place(c), row(s)) + distance*slope
          end do
       end do
-   end subroutine move_table
+   end subroutine move_columns
 
 end module ek_case_slopes

@@ -60,7 +60,7 @@ module ek_derivatives
       real(wp), allocatable :: slopes(:, :, :) !! (column, direction, state): derivatives, unit of the column per unit of the number
       real(wp), allocatable :: errors(:, :, :)             !! estimated errors of `slopes`
       logical, allocatable :: can_move(:)                  !! whether each direction can be varied at this design
-      type(neighbour_t), private :: neighbour
+      type(neighbour_t) :: neighbour                       !! work space, also for the numbers of the model (ek_defined_slopes)
       type(column_observer_t), private :: observer
    end type derivatives_t
 

@@ -23,6 +23,7 @@ module ek_study_slopes
    use ek_workspace_cases, only: open_workspace, case_number
    use ek_direction, only: direction_t, factor_direction
    use ek_derivatives, only: begin_derivatives, refuse_case
+   use ek_defined_slopes, only: begin_defined
    use ek_case_slopes, only: case_slopes_t, solve_with_slopes, move_table
    use ek_stencil, only: stencils, differentiate
    use ek_noise, only: noise_of_slope
@@ -107,6 +108,10 @@ contains
             if (allocated(error)) return
             allocate (this%derivatives)
             call begin_derivatives(workspace, this%case, this%options%columns, self%directions, this%derivatives)
+            if (.not. allocated(this%options%defined)) cycle
+            allocate (this%defined)
+            call begin_defined(workspace, trim(study%definitions), this%options%defined%list%head, this%derivatives, this%list, &
+               this%defined)
          end associate
       end do
       call place_curves(study, self)

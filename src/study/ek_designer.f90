@@ -10,7 +10,11 @@ module ek_designer
    use ek_sweep_table, only: sweep_columns
    use ek_table, only: column_index, name_length, scheduled_rows
    use ek_quantity, only: head_with_unit
-   use ek_study, only: study_t
+   use ek_case, only: is_mountable
+   use ek_lone_case, only: heads_on_rig
+   use ek_defined_column, only: defined_t, define_columns, keep_named, is_named
+   use ek_defined_table, only: defined_list_t, append_defined, needed_of_program => needed_columns
+   use ek_study, only: study_t, response_t
    use ek_response, only: needed_columns, no_column, prepare_reading, prepare_difference, check_reading
    use ek_response_value, only: reading_t, stop_where_read, is_difference
    use ek_read_states, only: reads_few_states
@@ -87,6 +91,7 @@ contains
          call list_columns(study, designer, k)
          call solve_first(k, designer, error)
          if (allocated(error)) return
+         if (study%definitions /= '') call append_first(study, designer, k)
       end do
       call check_columns(study, home, designer, error)
       if (allocated(error)) return
@@ -109,7 +114,7 @@ contains
       do k = 1, size(designer%options)
          associate (this => designer%workspace%cases(k))
             designer%options(k)%defers_kandc = reads_few_states(designer%readings, designer%case_of, k, &
-               study%columns(:merge(size(study%columns), 0, k == 1)), this%observer, this%result%table)
+               study%columns(:merge(size(study%columns), 0, k == 1)), designer%options(k), this%observer, this%result%table)
          end associate
       end do
    end subroutine new_designer
@@ -127,6 +132,74 @@ contains
          call failure_of(this%result, error)
       end associate
    end subroutine solve_first
+
+   !> Appends the columns of another program that responses name to the table of a case, in this and in all later designs.
+   subroutine append_first(study, designer, case)
+      type(study_t), intent(in) :: study
+      type(designer_t), intent(inout) :: designer
+      integer, intent(in) :: case
+      type(defined_list_t) :: more
+
+      associate (result => designer%workspace%cases(case)%result)
+         more%columns = result%table%columns
+         call define_columns(result%suspension, more%columns, trim(study%definitions), more%list)
+         call keep_named(names_of_case(study, designer, case), more%list)
+         if (size(more%list) == 0) return
+         call append_defined(result%suspension, more, result%table)
+         designer%options(case)%defined = more
+      end associate
+   end subroutine append_first
+
+   !> The columns that the responses of a case name.
+   function names_of_case(study, designer, case) result(names)
+      type(study_t), intent(in) :: study
+      type(designer_t), intent(in) :: designer
+      integer, intent(in) :: case
+      character(name_length), allocatable :: names(:)
+      integer :: k
+
+      allocate (names(0))
+      do k = 1, size(study%responses)
+         associate (asked => study%responses(k))
+            if (designer%case_of(k) /= case .or. asked%of == 'difference' .or. asked%of == 'gradient') cycle
+            names = [character(name_length) :: names, asked%column, asked%over]
+         end associate
+      end do
+   end function names_of_case
+
+   !> Replaces names of columns of another program by their headings: 'left Toe Angle' by 'left Toe Angle [deg]'.
+   subroutine take_headings(options, asked, message)
+      type(solve_options_t), intent(in) :: options           !! of the case of the response
+      type(response_t), intent(inout) :: asked
+      character(:), allocatable, intent(out) :: message      !! a name of several columns; '' otherwise
+
+      message = ''
+      if (.not. allocated(options%defined) .or. asked%of == 'gradient') return
+      call take_heading(asked%column)
+      if (message == '') call take_heading(asked%over)
+      if (message /= '') message = asked%where//': response '//quoted(asked%name)//': '//message
+
+   contains
+
+      subroutine take_heading(name)
+         character(:), allocatable, intent(inout) :: name
+         character(:), allocatable :: found
+         integer :: k, many
+
+         many = 0
+         associate (list => options%defined%list)
+            do k = 1, size(list)
+               if (.not. is_named(list(k), name)) cycle
+               many = many + 1
+               if (many == 1) found = trim(list(k)%head)
+               if (many == 2) message = quoted(name)//' names several columns: '//quoted(found)//', '// &
+                  quoted(trim(list(k)%head))//'; name one'
+            end do
+         end associate
+         if (many == 1) name = found
+      end subroutine take_heading
+
+   end subroutine take_headings
 
    !> Reads all responses in the design of the deck.
    subroutine check_readings(designer, mistakes)
@@ -169,6 +242,7 @@ contains
 
       allocate (wanted(merge(size(study%columns), 0, case == 1)))
       if (case == 1) wanted(:) = study%columns
+      if (study%definitions /= '') call add_needed(study, designer, case, wanted)
       do k = 1, size(study%responses)
          if (designer%case_of(k) == case) call needed_columns(study%responses(k), &
             designer%workspace%cases(case)%case%test, wanted)
@@ -176,6 +250,24 @@ contains
       designer%options(case)%columns = wanted
       designer%options(case)%has_violation = any(wanted == 'constraint_error')
    end subroutine list_columns
+
+   !> Adds the columns of elastokin from which the columns of another program follow that responses name.
+   subroutine add_needed(study, designer, case, wanted)
+      type(study_t), intent(in) :: study
+      type(designer_t), intent(inout) :: designer
+      integer, intent(in) :: case
+      character(name_length), allocatable, intent(inout) :: wanted(:)
+      character(name_length), allocatable :: heads(:)
+      type(defined_t), allocatable :: list(:)
+
+      associate (workspace => designer%workspace)
+         if (.not. is_mountable(workspace%cases(case)%case)) return
+         call heads_on_rig(workspace%raw, workspace%cases(case)%case, heads)
+         call define_columns(workspace%raw, heads, trim(study%definitions), list)
+      end associate
+      call keep_named(names_of_case(study, designer, case), list)
+      call needed_of_program(heads, list, wanted)
+   end subroutine add_needed
 
    !> Checks that all columns named by the study are in the table of the first case, in the design of the deck, and that all
    !> responses can be read.
@@ -186,6 +278,8 @@ contains
       type(error_t), allocatable, intent(out) :: error   !! exit_deck, all errors
       type(message_list_t) :: mistakes
       character(name_length), allocatable :: heads(:)    ! all columns of the results
+      type(defined_t), allocatable :: list(:)
+      type(response_t) :: asked
       character(:), allocatable :: message
       integer :: k
 
@@ -198,10 +292,17 @@ contains
       end associate
       allocate (designer%readings(size(study%responses)))
       do k = 1, size(study%responses)
-         associate (result => designer%workspace%cases(designer%case_of(k))%result, readings => designer%readings, &
-            asked => study%responses(k))
+         asked = study%responses(k)
+         associate (result => designer%workspace%cases(designer%case_of(k))%result, readings => designer%readings)
             call sweep_columns(result%suspension, result%case, heads)
-            if (asked%of == 'difference') then
+            if (study%definitions /= '') then
+               call define_columns(result%suspension, heads, trim(study%definitions), list)
+               heads = [character(name_length) :: heads, list%head]
+            end if
+            call take_headings(designer%options(designer%case_of(k)), asked, message)
+            if (message /= '') then
+               continue
+            else if (asked%of == 'difference') then
                call prepare_difference(asked, readings(asked%less(1)), readings(asked%less(2)), readings(k), message)
             else
                call prepare_reading(asked, result%table, result%case%unit_name, readings(k), message, heads, home, test_of(result))

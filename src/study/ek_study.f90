@@ -72,6 +72,7 @@ module ek_study
    type :: study_t
       character(:), allocatable :: name, title, deck, case, plot
       integer :: kind = step_size_kind
+      character(10) :: definitions = ''           !! other program whose columns the responses may name; '': none
       character(:), allocatable :: end            !! step_size: the end of the case to be examined, 'from' or 'to'
       character(word_length), allocatable :: methods(:)
       character(name_length), allocatable :: columns(:)

@@ -188,7 +188,8 @@ contains
 
       do c = 1, size(workspace%cases)
          if (.not. (designer%options(c)%defers_kandc .and. is_whole(workspace%cases(c)%result))) cycle
-         call observe_read_states(designer%readings, designer%case_of, c, workspace%cases(c)%observer, workspace%cases(c)%result)
+         call observe_read_states(designer%readings, designer%case_of, c, designer%options(c), workspace%cases(c)%observer, &
+            workspace%cases(c)%result)
       end do
    end subroutine complete_tables
 

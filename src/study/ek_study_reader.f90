@@ -6,6 +6,7 @@ module ek_study_reader
    use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_deck
    use ek_text, only: str, lower, quoted, did_you_mean
+   use ek_definition_rows, only: programs
    use ek_case, only: method_names, max_increments
    use ek_record, only: element, place_of
    use ek_group, only: group_number, study_groups, study_group, factor_group, response_group, correlation_group, record_head, &
@@ -165,6 +166,8 @@ contains
       study%list = text_of(reading, 'list')
       call choice_among(reading, 'format', format_names, c)
       study%format = lower(text_of(reading, 'format'))
+      call choice_among(reading, 'definitions', programs, c)
+      study%definitions = lower(text_of(reading, 'definitions'))
       allocate (study%columns(value_count(reading, 'columns')))
       do c = 1, size(study%columns)
          study%columns(c) = raw(reading, 'columns', c)
@@ -199,7 +202,7 @@ contains
       if (study%kind == list_kind .and. study%list == '' .and. .not. is_lost(reading, 'list')) call complain(reading, '', &
          'kind = ''list'' needs list, a CSV file with one row per design and one column per factor')
       if (study%kind == step_size_kind) then
-         call refuse(reading, [character(9) :: 'samples', 'levels', 'seed', 'scrambled', 'chunk', 'format'], why)
+         call refuse(reading, [character(11) :: 'samples', 'levels', 'seed', 'scrambled', 'chunk', 'format', 'definitions'], why)
          if (size(study%increments) == 0 .and. .not. is_lost(reading, 'increments')) call complain(reading, '', &
             'kind = ''step_size'' needs increments = …')
          return

@@ -1,4 +1,5 @@
-!> Units of columns. The unit of a column is the end of its name: 'toe_deg', 'wheel_rate_n_per_mm'.
+!> Units of columns. The unit of a column is the end of its name: 'toe_deg', 'wheel_rate_n_per_mm'. A column of another program has
+!> its unit in brackets: 'Toe Angle [deg]'.
 module ek_unit_suffix
    use ek_kinds, only: wp, degree, millimetre
    implicit none(type, external)
@@ -20,16 +21,23 @@ module ek_unit_suffix
       unit_t('deg_per_kn', 'deg/kN', degree/1.0e3_wp), unit_t('mm_per_kn', 'mm/kN', 1.0e-6_wp), &
       unit_t('deg_per_100nm', 'deg/100 N m', degree/100.0_wp), unit_t('n_per_kn', 'N/kN', 1.0e-3_wp), &
       unit_t('mm_per_m', 'mm/m'), unit_t('mm_per_g', 'mm/g', millimetre), unit_t('mm_per_mm', 'mm/mm'), &
-      unit_t('deg_per_mm', 'deg/mm'), unit_t('n_per_deg', 'N/deg')]
+      unit_t('deg_per_mm', 'deg/mm'), unit_t('n_per_deg', 'N/deg'), unit_t('deg_per_nmm', 'deg/(N mm)')]
 
 contains
 
-   !> The unit at the end of a column name: 'mm', 'n_per_mm'; '' if the name has no unit.
+   !> The unit of a column name as a suffix: 'mm', 'n_per_mm'; '' if the name has no unit.
    pure function unit_of(column) result(unit)
       character(*), intent(in) :: column
       character(:), allocatable :: unit
-      integer :: mark
+      integer :: mark, last
 
+      last = len_trim(column)
+      mark = 0
+      if (last > 0) mark = merge(index(column, ' [', back=.true.), 0, column(last:last) == ']')
+      if (mark > 0) then
+         unit = unit_ending(column(mark + 2:last - 1))
+         return
+      end if
       mark = index(column, '_per_')
       if (mark > 0) then
          unit = column(index(column(:mark - 1), '_', back=.true.) + 1:)
@@ -62,7 +70,7 @@ contains
    end function unit_ending
 
    !> SI value of the unit of a column. The value is 1 for a column without a known unit, for %, mm/m, deg/deg and mm/mm, and for
-   !> deg/mm and N/deg, which are not converted.
+   !> deg/mm, N/deg and deg/(N mm), which are not converted.
    pure real(wp) function unit_size(column) result(size_of)
       character(*), intent(in) :: column
       integer :: k
