@@ -21,7 +21,7 @@ module ek_named_numbers
    use ek_test_result, only: test_result_t
    use ek_gradient, only: gradient_windows
    use ek_gradient_definition, only: windows_t
-   use ek_key_number, only: key_number_t, nothing, read_source, is_slope, largest_of_all
+   use ek_key_number, only: key_number_t, nothing, read_source, add_stops, is_slope, largest_of_all
    use ek_number_reach, only: reach_of, required_reach, lacks_state
    use ek_missing_number, only: missing_reason
    use ek_number_names, only: list_all, find_number, side_of_only_wheel, stems_of, explain_unknown
@@ -109,6 +109,7 @@ contains
                call add(source%column(wheel))
                call add(source%over(wheel))
             end do
+            call add_stops(number%how, source, this%options%stops)
             reach(k) = reach_of(number%how, suspension, cases(source%test), source)
             this%options%reach = max(this%options%reach, reach(k))
          end associate

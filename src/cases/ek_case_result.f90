@@ -21,7 +21,8 @@ module ek_case_result
    use ek_failure_text, only: failure_text, stability_remarks
    use ek_case_remarks, only: settling_remarks, drift_remarks, travel_remarks, rack_remarks, closure_remarks, curve_reach_remarks
    use ek_remark, only: remark_list_t, failure, on_case, on_end
-   use ek_table, only: table_t, name_length, column, keep_rows, scheduled_rows
+   use ek_value_stops, only: stop_at_values
+   use ek_table, only: table_t, stop_t, name_length, column, keep_rows, scheduled_rows
    use ek_test_result, only: frame_line, test_result_t, find_wheels
    implicit none(type, external)
    private
@@ -45,6 +46,7 @@ module ek_case_result
       character(name_length), allocatable :: columns(:)   !! quantities that are computed; not allocated: all
       type(defined_list_t), allocatable :: defined !! columns of another program that the table also has, at its end
       logical :: defers_kandc = .false.            !! the caller fills the K&C quantities at the states that are read
+      type(stop_t), allocatable :: stops(:)        !! values of columns at which the path stops; not allocated: none
       real(wp) :: reach = huge(1.0_wp)             !! swept value [SI] beyond which, on either side of design, no state is needed
       character(:), allocatable :: checksum        !! checksum of the deck, for the header of the table; not allocated: no header
    end type solve_options_t
@@ -145,6 +147,8 @@ contains
       end if
       if (.not. has_path) call sweep(result%suspension, result%case, result%path, result%kkt, progress, options%reach, result%space)
       call observe(result%suspension, result%case, result%path, result%kkt, tells, result%table, options%defers_kandc)
+      if (allocated(options%stops)) call stop_at_values(options%stops, result%suspension, result%case, result%kkt, result%space, &
+         tells, result%path, result%table)
       if (allocated(options%defined)) call append_defined(result%suspension, options%defined, result%table)
       if (any(result%path%failure%state > 0) .or. any(open_states(result%table))) result%outcome = partly_solved
       if (allocated(options%checksum)) call add_header(result%table, result%suspension, result%case, options%checksum)

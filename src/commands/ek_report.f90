@@ -12,7 +12,7 @@ module ek_report
    use ek_reader, only: definition_t
    use ek_examination, only: examination_t
    use ek_standard_tests, only: standard_tests
-   use ek_table, only: table_t, new_table, csv_text, name_length
+   use ek_table, only: table_t, stop_t, new_table, csv_text, name_length
    use ek_table_reading, only: states_of_windows
    use ek_test_charts, only: test_charts
    use ek_grid, only: is_grid
@@ -30,7 +30,8 @@ module ek_report
    use ek_deck_values, only: list_values
    use ek_deck_writer, only: write_deck_as_used
    use ek_planned_test, only: planned_tests
-   use ek_key_numbers, only: key_numbers
+   use ek_key_numbers, only: key_numbers, stop_at_numbers
+   use ek_number_names, only: plan_tables
    use ek_key_number_table, only: key_numbers_csv, key_numbers_json
    use ek_assessment, only: axle_kind_t
    use ek_report_content, only: report_t, add_fact
@@ -418,16 +419,21 @@ contains
       type(error_t), allocatable :: trouble
       type(table_t), allocatable :: compliance
       type(explanation_t), allocatable :: explanations(:)
+      type(test_result_t), allocatable :: planned(:)
+      type(stop_t), allocatable :: stops(:)                       ! of the key numbers of the test
       type(table_t) :: defined                                    ! of the test in the definitions of another program
       integer :: k, failed, code
 
       allocate (page%paths(size(chosen)), page%charts(0), page%gradients(0))
       if (size(suspension%wheels) > 0) allocate (compliance)
+      call plan_tables(suspension, chosen, planned)
       failed = 0
       code = exit_convergence
       do k = 1, size(chosen)
+         if (allocated(stops)) deallocate (stops)
+         call stop_at_numbers(planned, k, stops)
          call run_planned(suspension, chosen(k), found%faults%line(k), checksum, page%tests(k), page%paths(k), trouble, &
-            compliance, page%loads, explanations, page%live, page%parts, page%defined, defined)
+            compliance, page%loads, explanations, page%live, page%parts, page%defined, defined, stops)
          if (allocated(trouble)) then
             call print_error(trouble%message)
             failed = failed + 1
@@ -532,7 +538,7 @@ contains
    !> contain each failure, and the table has the converged states. If the test cannot be run, the table is empty; `error` has the
    !> code exit_model if the model cannot be solved.
    subroutine run_planned(base, case, fault, checksum, test, path, error, compliance, loads, explanations, live, &
-      parts, numbers, defined)
+      parts, numbers, defined, stops)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: case
       character(*), intent(in) :: fault            !! defect of the model in this test, which is then not run; '' for none
@@ -547,6 +553,7 @@ contains
       type(part_record_t), intent(inout), optional :: parts !! receives the loads on the parts
       type(defined_numbers_t), intent(inout), optional :: numbers      !! the program, if requested; receives the design state
       type(table_t), intent(inout), optional :: defined     !! receives the table in the definitions of the program
+      type(stop_t), allocatable, intent(in), optional :: stops(:)      !! values of columns at which numbers are read
       integer, parameter :: topics(7) = [on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure]
       type(solve_options_t) :: options
       class(case_result_t), allocatable :: result
@@ -558,6 +565,9 @@ contains
       allocate (result)
       options%fault = fault
       options%checksum = checksum
+      if (present(stops)) then
+         if (allocated(stops)) options%stops = stops
+      end if
       options%is_compared = .false.
       options%min_settling = 1.0e-5_wp           ! m, seen on a rig: the design state should be in equilibrium
       call solve_with_remarks(base, case, options, result, error, read=test%read)

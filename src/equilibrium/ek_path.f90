@@ -17,7 +17,7 @@ module ek_path
    use ek_state, only: state_t, inputs_t, design_state, return_to_design, pack_state, unpack_state, motion_between, largest_motion
    use ek_schedule, only: schedule_t, make_schedule, inputs_at
    use ek_path_states, only: path_t, new_path, count_ways, ways, span
-   use ek_kkt, only: kkt_t, condition
+   use ek_kkt, only: kkt_t, condition, assemble, factorise, whole_tangent
    use ek_reach, only: failure_t, reach, settle
    use ek_recursion, only: start_recursion, recursive_increment, corrected_increment, check_increment
    use ek_branch, only: branch_t, renew_branch, leave, note_crossing, new_branch
@@ -27,7 +27,8 @@ module ek_path
    use ek_newton, only: outcome_t, find_equilibrium
    implicit none(type, external)
    private
-   public :: path_t, sweep, new_path, walk, walk_t, empty_walk, progress_procedure, suspect, min_step, crossing_step, confirm
+   public :: path_t, sweep, new_path, walk, begin_between, reach_place, walk_t, empty_walk, &
+      progress_procedure, suspect, min_step, crossing_step, confirm
 
    integer, parameter :: max_evaluations = 10          !! largest number of comparisons per direction
    real(wp), parameter :: apart = 1.0e-6_wp       !! equilibria further apart are different [m]
@@ -239,6 +240,61 @@ contains
       path%is_settled = path%failure(1)%state == 0
       if (path%is_settled) call pack_state(self%state, path%settled)
    end subroutine start
+
+   !> Prepares the way from a state of a solved path of equilibria to swept values beyond it (reach_place). Earlier states of the
+   !> schedule serve the prediction, as in a sweep.
+   subroutine begin_between(self, suspension, case, path, from, direction, kkt)
+      type(walk_t), intent(inout) :: self        !! work space of the model
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      integer, intent(in) :: from                !! index of the state, which was reached
+      integer, intent(in) :: direction           !! 1 or −1: side of the swept values in the order of the states
+      type(kkt_t), intent(inout) :: kkt          !! of the path
+      type(inputs_t) :: inputs
+      integer :: before(depth), k, n
+
+      call make_schedule(suspension, case, self%schedule)
+      if (.not. allocated(self%state%poses)) self%state = design_state(suspension)
+      call renew_branch(suspension, self%branch)
+      self%branch%least = min_step*span(path)
+      self%branch%width = crossing_step*span(path)
+      call unpack_state(path%packed(:, from), self%state)
+      call inputs_at(self%schedule, path%value(from), inputs)
+      call assemble(suspension, self%state, inputs, whole_tangent, kkt)
+      call factorise(kkt)
+      call leave(self%branch, path%value(from), path%packed(:, from), kkt%negative)
+      call forget(self%branch%predictor)
+      n = 0
+      k = from
+      do while (n < depth .and. k >= 1 .and. k <= path%states)
+         if (.not. path%is_reached(k)) exit
+         if (path%is_scheduled(k)) then
+            n = n + 1
+            before(n) = k
+         end if
+         k = k - direction
+      end do
+      do k = n, 1, -1
+         call remember(self%branch%predictor, path%value(before(k)), path%packed(:, before(k)))
+      end do
+   end subroutine begin_between
+
+   !> Moves on to the equilibrium at a swept value, after begin_between or after another swept value.
+   subroutine reach_place(self, suspension, case, place, kkt, one)
+      type(walk_t), intent(inout) :: self
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      real(wp), intent(in) :: place              !! SI
+      type(kkt_t), intent(inout) :: kkt
+      type(path_t), intent(inout) :: one         !! path of one state; is_reached: the state was found
+      type(failure_t) :: failure
+
+      one%value(1) = place
+      call reach(suspension, self%schedule, place, case%tolerance, self%branch, self%state, kkt, one%iterations(1), failure)
+      one%is_reached(1) = failure%state == 0
+      if (one%is_reached(1)) call keep(self, suspension, case, 1, one, kkt)
+   end subroutine reach_place
 
    !> Stores the current state as state k.
    subroutine keep(self, suspension, case, k, path, kkt, progress)

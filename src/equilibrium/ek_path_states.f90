@@ -14,7 +14,8 @@ module ek_path_states
    use ek_window, only: window_points, window_places, window_side, has_place, no_window
    implicit none(type, external)
    private
-   public :: path_t, new_path, most_places, drop_readings, nearest_state, nearest_reached, count_ways, ways, span
+   public :: path_t, new_path, one_state, copy_state, insert_state, most_places, drop_readings, &
+      nearest_state, nearest_reached, count_ways, ways, span
 
    !> All states of a sweep, in order from…to.
    type :: path_t
@@ -193,6 +194,53 @@ contains
       if (path%start > k) path%start = path%start + 1
    end subroutine insert
 
+   !> Creates a path of one state, not reached.
+   pure subroutine one_state(numbers, path)
+      integer, intent(in) :: numbers               !! length of a packed state
+      type(path_t), intent(inout) :: path
+
+      path%states = 1
+      call clear(numbers, path)
+      path%is_scheduled = .false.
+      path%is_read = .true.
+   end subroutine one_state
+
+   !> Copies a state, with its findings, to a path of one state.
+   pure subroutine copy_state(path, k, one)
+      type(path_t), intent(in) :: path
+      integer, intent(in) :: k
+      type(path_t), intent(inout) :: one           !! of one_state
+
+      one%value(1) = path%value(k)
+      one%packed(:, 1) = path%packed(:, k)
+      one%is_reached(1) = path%is_reached(k)
+      one%is_stable(1) = path%is_stable(k)
+      one%iterations(1) = path%iterations(k)
+      one%pivot_ratio(1) = path%pivot_ratio(k)
+   end subroutine copy_state
+
+   !> Inserts a state where a number is read into a solved path.
+   pure subroutine insert_state(after, one, path)
+      integer, intent(in) :: after                 !! index of the state before
+      type(path_t), intent(in) :: one              !! path of this one state
+      type(path_t), intent(inout) :: path
+
+      associate (n => path%states, a => after)
+         path%value = [path%value(:a), one%value(1), path%value(a + 1:n)]
+         path%packed = reshape([path%packed(:, :a), one%packed(:, 1), path%packed(:, a + 1:n)], [size(one%packed, 1), n + 1])
+         path%is_reached = [path%is_reached(:a), one%is_reached(1), path%is_reached(a + 1:n)]
+         path%is_stable = [path%is_stable(:a), one%is_stable(1), path%is_stable(a + 1:n)]
+         path%iterations = [path%iterations(:a), one%iterations(1), path%iterations(a + 1:n)]
+         path%pivot_ratio = [path%pivot_ratio(:a), one%pivot_ratio(1), path%pivot_ratio(a + 1:n)]
+         path%is_scheduled = [path%is_scheduled(:a), .false., path%is_scheduled(a + 1:n)]
+         path%is_read = [path%is_read(:a), .true., path%is_read(a + 1:n)]
+      end associate
+      path%states = path%states + 1
+      if (path%start > after) path%start = path%start + 1
+      where (path%failure%state > after) path%failure%state = path%failure%state + 1
+      where (path%limit_state > after) path%limit_state = path%limit_state + 1
+   end subroutine insert_state
+
    !> Removes the states that are not of the schedule from a solved path.
    subroutine drop_readings(path)
       type(path_t), intent(inout) :: path
@@ -203,6 +251,9 @@ contains
       kept = pack([(k, k=1, path%states)], path%is_scheduled)
       do side = 1, 2
          if (path%failure(side)%state > 0) path%failure(side)%state = new_index(path%failure(side)%state, side)
+      end do
+      do k = 1, path%limits
+         path%limit_state(k) = count(path%is_scheduled(:path%limit_state(k)))
       end do
       path%start = findloc(kept, path%start, dim=1)
       path%value = path%value(kept)

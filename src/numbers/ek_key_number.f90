@@ -6,13 +6,13 @@ module ek_key_number
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_quantity, only: at_design, largest, least, slope, in_phase, anti_phase, at_place, to_contact, largest_of_all
-   use ek_table, only: table_t, column_index, name_length, scheduled_rows
+   use ek_table, only: table_t, stop_t, add_stop, column_index, name_length, scheduled_rows
    use ek_test_result, only: design_row, unfolded_rows
    use ek_table_reading, only: value_where
    use ek_gradient, only: fit_slope
    implicit none(type, external)
    private
-   public :: key_number_t, key_source_t, nothing, read_source, has_value, needs_path, needs_all, is_slope
+   public :: key_number_t, key_source_t, nothing, read_source, add_stops, has_value, needs_path, needs_all, is_slope
    public :: at_design, largest, least, slope, in_phase, anti_phase, at_place, to_contact, largest_of_all
 
    !> The columns of a key number in the table of one test: first for the left wheel, the single wheel or the axle, then for the
@@ -112,6 +112,19 @@ contains
       end do
       is_final = is_slope(how) .or. (how /= largest_of_all .and. any(ieee_is_finite(values)))
    end subroutine read_source
+
+   !> Adds the values of columns at which a key number is read to the stops of its test.
+   pure subroutine add_stops(how, source, stops)
+      integer, intent(in) :: how
+      type(key_source_t), intent(in) :: source
+      type(stop_t), allocatable, intent(inout) :: stops(:)
+      integer :: wheel
+
+      if (.not. (how == at_place .or. how == to_contact)) return
+      do wheel = 1, 2
+         if (source%over(wheel) /= '') call add_stop(trim(source%over(wheel)), source%wanted(wheel), stops)
+      end do
+   end subroutine add_stops
 
    !> The value of a column at design; NaN if the state did not converge.
    pure real(wp) function design_value(table, place) result(value)

@@ -5,19 +5,19 @@
 !> The definition of a slope is a sentence, from which its value follows: columns, and the factor on the slope of each wheel.
 module ek_key_numbers
    use ek_kinds, only: wp
-   use ek_table, only: column_index
+   use ek_table, only: stop_t, column_index
    use ek_quantity, only: quantity_t, number_t, number_rows, elastic_axis, quantity_named, without_phase, unit_of, unit_text
    use ek_test_result, only: test_result_t
    use ek_gradient, only: gradient_t
    use ek_gradient_definition, only: fitted
-   use ek_key_number, only: key_number_t, key_source_t, nothing, read_source, has_value, is_slope, needs_all, at_design, &
-      largest, least, slope, in_phase, anti_phase, largest_of_all
+   use ek_key_number, only: key_number_t, key_source_t, nothing, read_source, add_stops, has_value, is_slope, needs_all, &
+      at_design, largest, least, slope, in_phase, anti_phase, largest_of_all
    use ek_missing_number, only: missing_reason
    use ek_place_numbers, only: number_list_t, new_number, add_source, append, numbers_of, place_numbers
    use ek_text, only: spaced, str
    implicit none(type, external)
    private
-   public :: key_number_t, key_numbers, list_key_numbers, number_heads, wanted_gradients, without_side, number_name
+   public :: key_number_t, key_numbers, stop_at_numbers, list_key_numbers, number_heads, wanted_gradients, without_side, number_name
 
    character(*), parameter :: ratio_ending = '_motion_ratio', gap_ending = '_gap_mm', instant = 'instant'
 
@@ -76,7 +76,7 @@ contains
       end do
    end subroutine key_numbers
 
-   !> Reads a key number from a test: a slope at the states of its window, every other number at the states of the schedule.
+   !> Reads a key number from a test, at the states of the schedule and at those where numbers are read.
    subroutine read_test(how, source, test, values, is_final)
       integer, intent(in) :: how
       type(key_source_t), intent(in) :: source
@@ -84,12 +84,30 @@ contains
       real(wp), intent(inout) :: values(2)
       logical, intent(out) :: is_final
 
-      if (is_slope(how) .and. allocated(test%read)) then
+      if (allocated(test%read)) then
          call read_source(how, source, test%read, values, is_final)
       else
          call read_source(how, source, test%table, values, is_final)
       end if
    end subroutine read_test
+
+   !> Adds the values of columns at which the key numbers of tests are read to the stops of one of the tests.
+   subroutine stop_at_numbers(tests, t, stops)
+      type(test_result_t), intent(in) :: tests(:)        !! with the columns of their tables and their wheels
+      integer, intent(in) :: t                           !! index of the test
+      type(stop_t), allocatable, intent(inout) :: stops(:)
+      type(number_list_t) :: list
+      type(key_number_t), allocatable :: numbers(:)
+      integer :: k, j
+
+      call place_numbers(tests, list)
+      call numbers_of(list, numbers)
+      do k = 1, size(numbers)
+         do j = 1, size(numbers(k)%sources)
+            if (numbers(k)%sources(j)%test == t) call add_stops(numbers(k)%how, numbers(k)%sources(j), stops)
+         end do
+      end do
+   end subroutine stop_at_numbers
 
    !> The reason why a key number has no value in its first test.
    function missing_in(number, test) result(text)
@@ -97,10 +115,10 @@ contains
       type(test_result_t), intent(in) :: test
       character(:), allocatable :: text
 
-      if (is_slope(number%how) .and. allocated(test%read)) then
-         text = missing_reason(number, 1, 1, test%read)
-      else if (needs_all(number%how) .and. .not. test%is_whole) then
+      if (needs_all(number%how) .and. .not. test%is_whole) then
          text = 'a state of the test did not converge'
+      else if (allocated(test%read)) then
+         text = missing_reason(number, 1, 1, test%read)
       else
          text = missing_reason(number, 1, 1, test%table)
       end if

@@ -14,7 +14,7 @@ module ek_number_names
    use ek_key_numbers, only: list_key_numbers, number_heads, wanted_gradients
    implicit none(type, external)
    private
-   public :: list_numbers, list_all, find_number, side_of_only_wheel, stems_of, explain_unknown
+   public :: list_numbers, list_all, plan_tables, find_number, side_of_only_wheel, stems_of, explain_unknown
 
 contains
 
@@ -165,5 +165,24 @@ contains
          call number_heads(listed(k), size(suspension%wheels) > 1, names(:, k))
       end do
    end subroutine list_all
+
+   !> Plans the tests of cases, with the headings of their tables and no states.
+   subroutine plan_tables(suspension, cases, tests)
+      type(suspension_t), intent(in) :: suspension       !! on no rig
+      type(case_t), intent(in) :: cases(:)
+      type(test_result_t), allocatable, intent(out) :: tests(:)
+      type(case_t), allocatable :: run(:)
+      character(name_length), allocatable :: heads(:)
+      integer :: k
+
+      allocate (run(size(cases)))
+      run(:) = cases
+      call planned_tests(suspension, run, tests)
+      do k = 1, size(run)
+         if (k == 1) call sweep_columns(suspension, run(k), heads)
+         tests(k)%table = new_table(heads, 0)
+         if (size(suspension%wheels) > 0) call find_wheels(tests(k), suspension%wheels(1)%side)
+      end do
+   end subroutine plan_tables
 
 end module ek_number_names

@@ -100,7 +100,7 @@ contains
       call add_source(source, number)
       number%name = name
       number%condition = 'test '//test%name//', where the inner wheel is steered by 20 deg (left: turn to the left)'
-      number%definition = column//' at this steer angle, on the cubic curve through four states'
+      number%definition = column//' at the state with this steer angle'
       call append(number, numbers)
    end subroutine add_at_steer
 
@@ -143,7 +143,7 @@ contains
          number%name = to_stop//stop
          number%condition = 'test '//test%name//', from design to contact'
          number%definition = 'magnitude of the change of '//travel//' from design to where '//stop//gap_ending// &
-            ' is 0, on the cubic curve through four states'
+            ' is 0'
          call append(number, numbers)
       end do
 

@@ -20,7 +20,7 @@ module ek_sweep_table
    use ek_table, only: table_t, new_table, column_index, name_length
    implicit none(type, external)
    private
-   public :: observer_t, make_observer, observe, observe_kandc_at, observe_state, quantity_columns, reads_matrix, &
+   public :: observer_t, make_observer, observe, observe_kandc_at, observe_one, observe_state, quantity_columns, reads_matrix, &
       is_kandc_column, reads_poses_of_wheels, nearly_singular, sweep_table, sweep_columns, open_states, sweep_bytes
 
    real(wp), parameter :: nearly_singular = 1.0e-12_wp   !! ratio of smallest to largest pivot; at this limit, four digits remain
@@ -109,11 +109,10 @@ contains
       logical, intent(in), optional :: defers_kandc
       type(state_t) :: state
       type(schedule_t) :: schedule
-      type(inputs_t) :: inputs
       type(attitude_t), allocatable :: wheels(:)
       real(wp), allocatable :: values(:)         ! all columns of a row
       logical :: needs_kandc
-      integer :: first, last, k, c, row
+      integer :: first, last, k, c
 
       call reached_rows(path, first, last)
       table = new_table(observer%columns, last - first + 1)
@@ -131,31 +130,69 @@ contains
       needs_kandc = has_kandc(observer)
       if (present(defers_kandc)) needs_kandc = needs_kandc .and. .not. defers_kandc
       if (needs_kandc) call begin_design(suspension, observer%kandc)
-      associate (reported => observer%reported, ended => observer%ended)
-         do k = first, last
-            row = k - first + 1
-            if (.not. path%is_reached(k)) values = ieee_value(1.0_wp, ieee_quiet_nan)
-            values(1) = k - 1
-            values(2) = path%value(k)/case%unit
-            values(reported + 1) = merge(1.0_wp, 0.0_wp, path%is_reached(k))
-            values(ended - 1) = path%iterations(k)
-            if (path%is_reached(k)) then
-               if (observer%has_stability) values(reported + 2) = merge(1.0_wp, 0.0_wp, path%is_stable(k))
-               values(ended - 2) = merge(1.0_wp, 0.0_wp, path%pivot_ratio(k) < nearly_singular)
-               call unpack_state(path%packed(:, k), state)
-               call inputs_at(schedule, path%value(k), inputs)
-               call fill_quantities(suspension, state, inputs, kkt, observer, observer%has_violation, needs_kandc, wheels, values)
-               if (observer%has_violation) then
-                  values(ended) = sqrt(dot_product(kkt%values, kkt%values))
-                  if (values(ended) > open_joints) values(reported + 1) = 0.0_wp
-               end if
-            end if
-            do c = 1, size(observer%kept)      ! a vector subscript would ask for memory
-               table%values(c, row) = values(observer%kept(c))
-            end do
+      do k = first, last
+         call fill_row(suspension, case, path, k, schedule, kkt, observer, needs_kandc, state, wheels, values)
+         values(1) = k - 1
+         do c = 1, size(observer%kept)      ! a vector subscript would ask for memory
+            table%values(c, k - first + 1) = values(observer%kept(c))
          end do
-      end associate
+      end do
    end subroutine observe
+
+   !> Computes all columns of a state of a path, except its number.
+   subroutine fill_row(suspension, case, path, k, schedule, kkt, observer, needs_kandc, state, wheels, values)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      integer, intent(in) :: k                              !! index of the state
+      type(schedule_t), intent(in) :: schedule              !! of the case
+      type(kkt_t), intent(inout) :: kkt                     !! work space
+      type(observer_t), intent(inout) :: observer
+      logical, intent(in) :: needs_kandc
+      type(state_t), intent(inout) :: state                 !! work space: any state of this model
+      type(attitude_t), intent(inout) :: wheels(:)          !! work space
+      real(wp), intent(inout) :: values(:)
+      type(inputs_t) :: inputs
+
+      associate (reported => observer%reported, ended => observer%ended)
+         if (.not. path%is_reached(k)) values = ieee_value(1.0_wp, ieee_quiet_nan)
+         values(2) = path%value(k)/case%unit
+         values(reported + 1) = merge(1.0_wp, 0.0_wp, path%is_reached(k))
+         values(ended - 1) = path%iterations(k)
+         if (.not. path%is_reached(k)) return
+         if (observer%has_stability) values(reported + 2) = merge(1.0_wp, 0.0_wp, path%is_stable(k))
+         values(ended - 2) = merge(1.0_wp, 0.0_wp, path%pivot_ratio(k) < nearly_singular)
+         call unpack_state(path%packed(:, k), state)
+         call inputs_at(schedule, path%value(k), inputs)
+         call fill_quantities(suspension, state, inputs, kkt, observer, observer%has_violation, needs_kandc, wheels, values)
+         if (observer%has_violation) then
+            values(ended) = sqrt(dot_product(kkt%values, kkt%values))
+            if (values(ended) > open_joints) values(reported + 1) = 0.0_wp
+         end if
+      end associate
+   end subroutine fill_row
+
+   !> Computes the row of one state, as `observe` does, for a table of this observer. The first column, the number of the state, is
+   !> left to the caller.
+   subroutine observe_one(suspension, case, one, kkt, observer, row)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: one                       !! path of this one state
+      type(kkt_t), intent(inout) :: kkt                     !! work space
+      type(observer_t), intent(inout) :: observer           !! of make_observer
+      real(wp), intent(out) :: row(:)                       !! of each column of the table
+      type(attitude_t) :: wheels(size(suspension%wheels))
+      type(state_t) :: state
+      type(schedule_t) :: schedule
+      real(wp) :: values(observer%ended)
+
+      state = design_state(suspension)
+      schedule = new_schedule(suspension, case)
+      values = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (has_kandc(observer)) call begin_design(suspension, observer%kandc)
+      call fill_row(suspension, case, one, 1, schedule, kkt, observer, has_kandc(observer), state, wheels, values)
+      row = values(observer%kept)
+   end subroutine observe_one
 
    !> Whether each state of a table was found by a linear method, but violates the joint constraints. Such a state has finite values
    !> and converged = 0.

@@ -16,7 +16,8 @@ module ek_table
    use ek_quantity, only: name_length
    implicit none(type, external)
    private
-   public :: table_t, new_table, keep_rows, scheduled_rows, column_index, name_index, column, column_range, row_count, name_length
+   public :: table_t, stop_t, new_table, keep_rows, insert_row, add_stop, stop_row, scheduled_rows, column_index, name_index, &
+      column, column_range, row_count, name_length
    public :: csv_text, csv_head, csv_row, put_csv_row, csv_length, csv_cell, write_csv, print_csv, read_csv
 
    character(*), parameter :: line_end = new_line('a')
@@ -27,12 +28,20 @@ module ek_table
       character(:), allocatable :: text
    end type row_name_t
 
+   !> A value of a column at which a number is read, and the row of the state that was found there.
+   type :: stop_t
+      character(name_length) :: column = ''
+      real(wp) :: value = 0.0_wp                          !! in the unit of the column
+      integer :: row = 0                                  !! each stop has a row of its own; 0: no state was found
+   end type stop_t
+
    type :: table_t
       character(name_length), allocatable :: columns(:)   !! names with unit suffix, e.g. toe_deg
       real(wp), allocatable :: values(:, :)               !! (column, row): a row is contiguous
       logical, allocatable :: is_whole(:)                 !! the column contains integers: state, iterations, …
       logical, allocatable :: is_scheduled(:)             !! .false.: the state of the row is not of the schedule of its case; a
                                                           !! number is read there. Not allocated: all are
+      type(stop_t), allocatable :: stops(:)               !! values at which numbers are read; not allocated: none
       logical :: is_along_arc = .false.                   !! the states are at equal distances along a path
       logical :: lacks_springs = .false.                  !! nothing carries the wheels: columns that depend on a rate are NaN
       logical :: rests_on_bushings = .false.              !! only bushings carry the wheels: the same columns are NaN
@@ -77,7 +86,54 @@ contains
       table%values = table%values(:, rows)
       if (allocated(table%names)) table%names = table%names(rows)
       if (allocated(table%is_scheduled)) table%is_scheduled = table%is_scheduled(rows)
+      if (.not. allocated(table%stops)) return
+      do k = 1, size(table%stops)
+         if (table%stops(k)%row > 0) table%stops(k)%row = findloc(rows, table%stops(k)%row, dim=1)
+      end do
    end subroutine keep_rows
+
+   !> Inserts a row that is not of the schedule.
+   pure subroutine insert_row(after, values, table)
+      integer, intent(in) :: after              !! index of the row before
+      real(wp), intent(in) :: values(:)         !! of each column
+      type(table_t), intent(inout) :: table     !! without names of rows
+      integer :: k
+
+      if (.not. allocated(table%is_scheduled)) allocate (table%is_scheduled(size(table%values, 2)), source=.true.)
+      table%is_scheduled = [table%is_scheduled(:after), .false., table%is_scheduled(after + 1:)]
+      table%values = reshape([table%values(:, :after), values, table%values(:, after + 1:)], &
+         [size(values), size(table%values, 2) + 1])
+      if (.not. allocated(table%stops)) return
+      do k = 1, size(table%stops)
+         if (table%stops(k)%row > after) table%stops(k)%row = table%stops(k)%row + 1
+      end do
+   end subroutine insert_row
+
+   !> Adds a value of a column to a list, unless the list contains it.
+   pure subroutine add_stop(column, value, stops)
+      character(*), intent(in) :: column
+      real(wp), intent(in) :: value             !! in the unit of the column
+      type(stop_t), allocatable, intent(inout) :: stops(:)
+
+      if (.not. allocated(stops)) allocate (stops(0))
+      if (any(stops%column == column .and. abs(stops%value - value) <= 0.0_wp)) return
+      stops = [stops, stop_t(column, value)]
+   end subroutine add_stop
+
+   !> The row of the state that was found where a column has a value; 0 without such a state.
+   pure integer function stop_row(table, column, value) result(row)
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: column             !! index of the column; 0: none
+      real(wp), intent(in) :: value
+      integer :: k
+
+      row = 0
+      if (column == 0 .or. .not. allocated(table%stops)) return
+      do k = 1, size(table%stops)
+         if (abs(table%stops(k)%value - value) > 0.0_wp) cycle
+         if (table%stops(k)%column == table%columns(column)) row = table%stops(k)%row
+      end do
+   end function stop_row
 
    !> Index of a column; 0 if no column has the name. Names are case-sensitive. (libgfortran's findloc of strings reads beyond the
    !> array with back = .true.)

@@ -1,18 +1,18 @@
 !> Reads a number from a table: a column at a swept value, or a slope over a window. Every caller reads in this way: key numbers and
 !> gradients of the report, responses of studies, conditions of `solve`, targets of `fit`.
 !>
-!> A number at a swept value is that of the state there, where the path of the case has stopped (ek_path_states). Nothing is
-!> interpolated between two states. A slope is read from the five states of its window (ek_window), so that the increments of a
-!> case have no influence. A window that the states do not cover has no slope.
+!> A number at a swept value is that of the state there, where the path of the case has stopped (ek_path_states). A number where
+!> another column has a given value is that of the state there, too (ek_value_stops). Nothing is interpolated between two states. A
+!> slope is read from the five states of its window (ek_window). So the increments of a case have no influence. A window that the
+!> states do not cover has no slope.
 !>
-!> The states of a path by arc length, and those of a load table, are not at swept values that can be chosen. There, a value at a
-!> state is the value of the state, a value between two states of a path by arc length lies on the cubic curve through four states,
-!> and a slope is that of the least-squares line through the states in the window.
+!> The states of a path by arc length, and those of a load table, are not at swept values that can be chosen. There is no value at a
+!> swept value between two of them, and a slope is that of the least-squares line through the states in the window.
 module ek_table_reading
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_window, only: window_points, window_places, window_slope, polynomial, has_place, both_sides
-   use ek_table, only: table_t, column_index, keep_rows, scheduled_rows
+   use ek_window, only: window_points, window_places, window_slope, has_place, both_sides
+   use ek_table, only: table_t, column_index, keep_rows, stop_row
    use ek_test_result, only: unfolded_rows
    implicit none(type, external)
    private
@@ -71,11 +71,7 @@ contains
 
       value = ieee_value(1.0_wp, ieee_quiet_nan)
       row = row_at(table, place)
-      if (row > 0) then
-         value = table%values(column, row)
-      else if (table%is_along_arc) then
-         value = value_where(table, column_index(table, 'factor'), place, column)
-      end if
+      if (row > 0) value = table%values(column, row)
    end function value_at_place
 
    !> Finds the rows of the five states of a window, and the side of the centre on which they lie; all rows are 0 if a state is missing.
@@ -199,7 +195,7 @@ contains
       x = table%values(over, :)
       y = table%values(column, :)
       reason = is_outside
-      if (row_at(table, centre) == 0 .and. .not. table%is_along_arc) return
+      if (row_at(table, centre) == 0) return
       middle = value_at_place(table, over, centre)
       reason = is_undefined
       if (.not. ieee_is_finite(middle)) return
@@ -218,45 +214,17 @@ contains
       reason = is_read
    end subroutine fit_rows
 
-   !> Value of column y at which column x has a given value. At a state with this value, the result is the value of the state.
-   !> Otherwise the result is interpolated by the cubic curve through two states of the schedule on either side (next to an end, by
-   !> a straight line); states where other numbers are read have no influence. If x has the value several times, the point nearest to
-   !> design is used. NaN outside the range of x.
+   !> Value of column y where column x has a given value: that of the state there, at which the path of the case has stopped
+   !> (ek_value_stops). NaN without such a state.
    pure real(wp) function value_where(table, x, at, y) result(value)
       type(table_t), intent(in) :: table
       integer, intent(in) :: x, y                          !! indices of the columns
-      real(wp), intent(in) :: at                           !! given value
-      real(wp), parameter :: rounding = 1.0e-7_wp          !! allowed deviation of a driven height, as a share of the range of x
-      integer, allocatable :: rows(:)
-      logical :: is_good(size(table%values, 2))
-      real(wp) :: nearest, place, slack
-      integer :: k, f, best
+      real(wp), intent(in) :: at                           !! given value, one of the stops of the table
+      integer :: row
 
       value = ieee_value(1.0_wp, ieee_quiet_nan)
-      f = column_index(table, 'factor')
-      if (min(x, y, f) == 0) return
-      is_good = unfolded_rows(table) .and. scheduled_rows(table) .and. ieee_is_finite(table%values(x, :)) .and. &
-         ieee_is_finite(table%values(y, :))
-      rows = pack([(k, k=1, size(is_good))], is_good)
-      if (size(rows) == 0) return
-      slack = rounding*(maxval(table%values(x, rows)) - minval(table%values(x, rows)))
-      if (at < minval(table%values(x, rows)) - slack .or. at > maxval(table%values(x, rows)) + slack) return
-      place = min(max(at, minval(table%values(x, rows))), maxval(table%values(x, rows)))
-      best = 0
-      nearest = huge(nearest)
-      do k = 1, size(rows) - 1
-         if ((table%values(x, rows(k)) - place)*(table%values(x, rows(k + 1)) - place) > 0.0_wp) cycle
-         if (abs(table%values(f, rows(k))) >= nearest) cycle
-         nearest = abs(table%values(f, rows(k)))
-         best = k
-      end do
-      if (best == 0) then
-         value = table%values(y, rows(1))                  ! the only state
-      else if (best > 1 .and. best < size(rows) - 1) then
-         value = polynomial(table%values(x, rows(best - 1:best + 2)), table%values(y, rows(best - 1:best + 2)), place)
-      else
-         value = polynomial(table%values(x, rows(best:best + 1)), table%values(y, rows(best:best + 1)), place)
-      end if
+      row = stop_row(table, x, at)
+      if (row > 0 .and. y > 0) value = table%values(y, row)
    end function value_where
 
 end module ek_table_reading

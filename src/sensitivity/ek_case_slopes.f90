@@ -40,7 +40,8 @@ contains
       logical, intent(out) :: is_valid
       type(error_t), allocatable :: error
       integer, allocatable :: states(:)
-      integer :: c, k, outcome
+      logical, allocatable :: is_stop(:)
+      integer :: c, k, s, outcome
 
       is_valid = is_solved
       if (.not. is_valid) then
@@ -55,8 +56,10 @@ contains
       if (.not. is_valid) return
       associate (result => workspace%cases(this%case)%result, derivatives => this%derivatives)
          states = pack([(k, k=1, result%path%states)], result%path%is_reached .and. (this%reads_all .or. result%path%is_read))
-         call find_derivatives(workspace, states, derivatives)
+         is_stop = [(is_at_stop(result%table, states(s)), s=1, size(states))]
+         call find_derivatives(workspace, states, derivatives, is_stop)
          call make_table(result%table, derivatives, this%table, this%place, this%row)
+         call move_stops(this)
          call put_values(derivatives, this%place, this%row, this%table)
          if (allocated(this%list)) then
             call define_derivatives(workspace, this%list, derivatives, this%defined)
@@ -81,6 +84,40 @@ contains
       end do
    end subroutine put_values
 
+   !> Whether a state of a path is that of a stop of its table (ek_value_stops).
+   pure logical function is_at_stop(table, state)
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: state
+      integer :: k
+
+      is_at_stop = .false.
+      if (.not. allocated(table%stops)) return
+      do k = 1, size(table%stops)
+         if (table%stops(k)%row > 0) is_at_stop = is_at_stop .or. nint(table%values(1, table%stops(k)%row)) == state - 1
+      end do
+   end function is_at_stop
+
+   !> Changes the derivatives at the stops, which are those at a fixed swept value, to those where the column keeps its value: the
+   !> state of a stop moves along the path.
+   !> Equation (E.11) of docs/theory/derivatives.md.
+   pure subroutine move_stops(this)
+      type(case_slopes_t), intent(inout) :: this
+      integer :: k, s, x, p
+
+      if (.not. allocated(this%table%stops)) return
+      associate (derivatives => this%derivatives)
+         do k = 1, size(this%table%stops)
+            s = findloc(this%row, this%table%stops(k)%row, dim=1)
+            x = findloc(derivatives%columns == this%table%stops(k)%column, .true., dim=1)
+            if (s == 0 .or. x == 0) cycle
+            do p = 1, size(derivatives%directions)
+               derivatives%slopes(:, p, s) = derivatives%slopes(:, p, s) - &
+                  derivatives%along(:, s)*(derivatives%slopes(x, p, s)/derivatives%along(x, s))
+            end do
+         end do
+      end associate
+   end subroutine move_stops
+
    !> Builds a table of the columns of a case and of the differentiated entries of its compliance matrix. Also finds the columns and
    !> the rows of the derivatives in the table.
    subroutine make_table(table, derivatives, whole, place, row)
@@ -96,6 +133,8 @@ contains
          pack(derivatives%columns, [(column_index(table, trim(derivatives%columns(c))) == 0, c=1, size(derivatives%columns))])]
       whole = new_table(columns, size(table%values, 2))
       whole%values(:many, :) = table%values
+      if (allocated(table%is_scheduled)) whole%is_scheduled = table%is_scheduled
+      if (allocated(table%stops)) whole%stops = table%stops
       place = [(column_index(whole, trim(derivatives%columns(c))), c=1, size(derivatives%columns))]
       row = [(minloc(abs(table%values(1, :) - (derivatives%states(s) - 1)), dim=1), s=1, size(derivatives%states))]
    end subroutine make_table

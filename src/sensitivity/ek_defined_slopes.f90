@@ -81,7 +81,7 @@ contains
    end subroutine allocate_defined
 
    !> Computes a column at a state by the chain rule. A derivative is NaN if one of its terms is.
-   !> Equation (E.11) of docs/theory/derivatives.md.
+   !> Equation (E.12) of docs/theory/derivatives.md.
    pure subroutine chain(workspace, this, found, s, number_slopes, number_errors, value, slopes, errors)
       type(workspace_t), intent(in) :: workspace
       type(defined_t), intent(in) :: this

@@ -28,7 +28,9 @@ module ek_derivatives
    use ek_text, only: quoted
    use ek_lapack, only: dgemm
    use ek_case, only: case_t
-   use ek_state, only: state_t, inputs_t, design_state
+   use ek_state, only: state_t, inputs_t, design_state, inputs_rate
+   use ek_schedule, only: schedule_t, new_schedule, inputs_at
+   use ek_kkt, only: assemble_rate
    use ek_table, only: name_length
    use ek_case_result, only: case_result_t
    use ek_workspace, only: workspace_t
@@ -59,6 +61,8 @@ module ek_derivatives
       real(wp), allocatable :: values(:, :)                !! (column, state): values as in the table of the case
       real(wp), allocatable :: slopes(:, :, :) !! (column, direction, state): derivatives, unit of the column per unit of the number
       real(wp), allocatable :: errors(:, :, :)             !! estimated errors of `slopes`
+      real(wp), allocatable :: along(:, :)                 !! (column, state): dy/ds along the path, per SI unit of the swept value,
+                                                           !! at the states where they are wanted
       logical, allocatable :: can_move(:)                  !! whether each direction can be varied at this design
       type(neighbour_t) :: neighbour                       !! work space, also for the numbers of the model (ek_defined_slopes)
       type(column_observer_t), private :: observer
@@ -100,10 +104,11 @@ contains
    end subroutine refuse_case
 
    !> Computes the derivatives at states of the path that the workspace has found for the case. No string is created.
-   subroutine find_derivatives(workspace, states, self)
+   subroutine find_derivatives(workspace, states, self, wants_along)
       type(workspace_t), intent(inout) :: workspace !! the case is solved at its present numbers; the work space of the case is used
       integer, intent(in) :: states(:)
       type(derivatives_t), intent(inout) :: self           !! prepared by begin_derivatives
+      logical, intent(in), optional :: wants_along(:)      !! whether self%along is wanted at each state; absent: nowhere
       integer :: first, last, many
 
       if (are_checked) call require(self%case > 0 .and. size(self%neighbour%x) == size(workspace%x), &
@@ -118,7 +123,7 @@ contains
             6*size(self%columns)))
          do first = 1, size(states), many
             last = min(first + many - 1, size(states))
-            call derive(workspace%x, result, first, last, self)
+            call derive(workspace%x, result, first, last, self, wants_along)
          end do
       end associate
    end subroutine find_derivatives
@@ -128,21 +133,22 @@ contains
       type(derivatives_t), intent(inout) :: self
 
       if (allocated(self%slopes)) then
-         if (size(self%slopes, 3) /= states) deallocate (self%values, self%slopes, self%errors)
+         if (size(self%slopes, 3) /= states) deallocate (self%values, self%slopes, self%errors, self%along)
       end if
       associate (columns => size(self%columns), directions => size(self%directions))
          if (.not. allocated(self%slopes)) allocate (self%values(columns, states), self%slopes(columns, directions, states), &
-            self%errors(columns, directions, states))
+            self%errors(columns, directions, states), self%along(columns, states))
       end associate
       self%can_move(:) = .true.
    end subroutine allocate_results
 
    !> Computes derivatives at the states first … last of self%states.
-   subroutine derive(x, result, first, last, self)
+   subroutine derive(x, result, first, last, self, wants_along)
       real(wp), intent(in) :: x(:)                         !! numbers of the design
       type(case_result_t), intent(inout) :: result
       integer, intent(in) :: first, last
       type(derivatives_t), intent(inout) :: self
+      logical, intent(in), optional :: wants_along(:)      !! of all states
       type(point_t), allocatable :: points(:)
       type(inputs_t), allocatable :: inputs(:)             ! of each state
       real(wp), allocatable :: values(:, :), kept(:, :, :)
@@ -159,6 +165,8 @@ contains
          if (.not. points(s)%is_regular) cycle
          call observe_columns(result%suspension, points(s)%state, inputs(s), result%kkt, self%observer, values(:, s))
          call keep_state(self%observer, kept(:, :, s))
+         if (.not. present(wants_along)) cycle
+         if (wants_along(s)) call find_along(result, points(s), values(:, s), kept(:, :, s), self%observer, self%along(:, s))
       end do
       self%values(:, first:last) = values
       do p = 1, size(self%directions)
@@ -182,6 +190,44 @@ contains
          self%errors(:, p, first:last) = ieee_value(1.0_wp, ieee_quiet_nan)
       end do
    end subroutine derive
+
+   !> Computes the derivatives of the columns along the path, dy/ds, as those with respect to a number. The motion of the state is
+   !> the tangent of the path, and each column is observed at both ends of this motion.
+   !> Equation (E.11) of docs/theory/derivatives.md.
+   subroutine find_along(result, point, values, kept, observer, along)
+      type(case_result_t), intent(inout) :: result
+      type(point_t), intent(inout) :: point
+      real(wp), intent(in) :: values(:), kept(:, :)        !! of the state
+      type(column_observer_t), intent(inout) :: observer
+      real(wp), intent(out) :: along(:)
+      real(wp), parameter :: share = 1.0e-4_wp             ! step, as a share of the range of the case
+      type(schedule_t) :: schedule
+      type(inputs_t) :: here, there(4)
+      type(state_t) :: moved
+      real(wp) :: motion(result%kkt%n, 1), step(result%kkt%nq), y(size(values), 4), errors(size(values)), h
+      integer :: k
+
+      h = share*abs(result%case%to - result%case%from)
+      schedule = new_schedule(result%suspension, result%case)
+      associate (place => result%path%value(point%number))
+         call inputs_at(schedule, place, here)
+         do k = 1, 4
+            call inputs_at(schedule, place + stencils(1)%at(k)*h, there(k))
+         end do
+      end associate
+      call assemble_rate(result%suspension, point%state, &
+         inputs_rate(there(2), there(3), (stencils(1)%at(3) - stencils(1)%at(2))*h), result%kkt)
+      motion(:, 1) = result%kkt%rhs(:result%kkt%n)
+      call solve_motions(result%suspension, point%state, here, result%kkt, 1, motion, point%is_regular)
+      along = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (.not. point%is_regular) return
+      moved = design_state(result%suspension)
+      do k = 1, 4
+         call displace(point%state, motion(:, 1), stencils(1)%at(k)*h, step, moved)
+         call observe_columns(result%suspension, moved, there(k), result%kkt, observer, y(:, k), kept)
+      end do
+      call differentiate(stencils(1), h, values, y, along, errors)
+   end subroutine find_along
 
    !> Whether the derivatives are computed by columns: one solution per column costs less than one per number, and all columns
    !> follow from the state.

@@ -16,6 +16,7 @@ module ek_fit_problem
    use ek_parameter, only: parameter_path
    use ek_matched_numbers, only: claims_t, new_claims, matches_t, match_t, match_paths, match_name, claim
    use ek_direction, only: direction_t, find_directions
+   use ek_compliance_table, only: compliance_columns
    use ek_wanted_number, only: wanted_number_t, find_wanted, find_column
    use ek_fit, only: fit_t, fit_factor_t, fit_target_t
    use ek_factor_paths, only: shared_text
@@ -253,7 +254,7 @@ contains
       type(wanted_number_t) :: wanted
       type(fit_point_t) :: point
       type(error_t), allocatable :: error
-      character(name_length), allocatable :: heads(:)
+      character(name_length), allocatable :: heads(:), entries(:)
       character(:), allocatable :: case, head, unit
       integer :: c
 
@@ -271,6 +272,12 @@ contains
             if (wanted%case == 0) then
                call mistakes%add(head//'case '//quoted(workspace%cases(c)%case%name)//' has no columns '//quoted(this%quantity)// &
                   ' and '//quoted(trim(this%over)))
+               return
+            end if
+            call compliance_columns(workspace%raw, entries)
+            if (.not. this%is_slope .and. any(entries == this%over)) then
+               call mistakes%add(head//'over = '//quoted(trim(this%over))//' is an entry of the compliance matrix; expected a '// &
+                  'column of the table of case '//quoted(workspace%cases(c)%case%name)//', where its path can stop')
                return
             end if
             if (this%is_slope) call make_slope(this, workspace, wanted)

@@ -8,19 +8,19 @@
 !>
 !> All numbers are differentiated in one way. ek_derivatives gives the derivative of every column at every state. The tables of the
 !> cases are moved along these derivatives, by steps that need no solution, and the number is read from the moved tables in the
-!> usual way. The difference quotient of the number is its derivative. So a fitted slope, a value between two states, a maximum and
-!> any future number that is read from tables need no formula in this module.
+!> usual way. The difference quotient of the number is its derivative. So a fitted slope, a value where another column has a given
+!> value, a maximum and any future number that is read from tables need no formula in this module.
 module ek_wanted_values
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
    use ek_text, only: quoted, str
    use ek_noise, only: is_flat
-   use ek_table, only: name_length, column_index
+   use ek_table, only: name_length, column_index, add_stop
    use ek_case_result, only: add_remarks, failure_of
    use ek_case, only: add_place, add_window
    use ek_table_reading, only: usual_width
-   use ek_key_number, only: nothing, largest_of_all, is_slope, needs_path
+   use ek_key_number, only: nothing, add_stops, largest_of_all, is_slope, needs_all
    use ek_missing_number, only: missing_reason, missing_value
    use ek_number_reach, only: required_reach, lacks_state
    use ek_workspace, only: workspace_t, put_numbers, solve_or_explain
@@ -121,9 +121,12 @@ contains
          needed(j)%required = max(needed(j)%required, required_of(wanted, source))
          call add(wanted%column)
          call add(wanted%over)
-         if (.not. allocated(wanted%key)) needed(j)%reads_all = needed(j)%reads_all .or. wanted%over /= 'factor'
-         if (.not. allocated(wanted%key)) return
-         needed(j)%reads_all = needed(j)%reads_all .or. needs_path(wanted%key%how)
+         if (.not. allocated(wanted%key)) then
+            if (wanted%over /= 'factor') call add_stop(trim(wanted%over), wanted%at, options%stops)
+            return
+         end if
+         call add_stops(wanted%key%how, wanted%key%sources(source), options%stops)
+         needed(j)%reads_all = needed(j)%reads_all .or. needs_all(wanted%key%how)
          do wheel = 1, 2
             call add(wanted%key%sources(source)%column(wheel))
             call add(wanted%key%sources(source)%over(wheel))
