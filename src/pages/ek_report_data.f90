@@ -40,10 +40,15 @@ contains
       type(report_t), intent(in) :: report
       character(:), allocatable :: text
       type(json_t) :: json
+      type(key_number_t), allocatable :: shown(:)     ! a copy: gfortran 12 leaks the components of an argument numbers(cards)
       integer, allocatable :: cards(:)
       integer :: k
 
       allocate (cards, source=summary_numbers(report%numbers, report%axle))
+      allocate (shown(size(cards)))
+      do k = 1, size(cards)
+         shown(k) = report%numbers(cards(k))
+      end do
       json%is_one_line = .true.
       call json%open('{')
       call json%item('format', json_string(format_name))
@@ -68,7 +73,7 @@ contains
       call json%open('[', 'tests')
       do k = 1, size(report%tests)
          if (report%tests(k)%is_run) call add_test(json, report%tests(k), report%charts, k, '', &
-            report%numbers(cards), report%measured)
+            shown, report%measured)
       end do
       call json%close(']')
       if (allocated(report%figures)) call add_figures(json, report%figures)
