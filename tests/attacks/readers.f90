@@ -166,6 +166,9 @@ contains
          call import_text(text, 'mutation', deck_text, kind, flaws, wish_t(datum='radius:0.3', axle='front'))
          call judge(flaws, kind, deck_text)
          flaws = new_flaws('mutation')
+         call import_text(text, 'mutation', deck_text, kind, flaws, wish_t(datum='ground', axle='front'))
+         call judge(flaws, kind, deck_text)
+         flaws = new_flaws('mutation')
          call import_text(text, 'mutation', deck_text, kind, flaws, wish_t(axes='rear,right,up', length='mm', axle='rear', &
             side='left'))
          call judge(flaws, kind, deck_text)
