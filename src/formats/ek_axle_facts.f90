@@ -36,6 +36,7 @@ module ek_axle_facts
    type :: axle_facts_t
       logical :: has_toe = .false., has_camber = .false.
       real(wp) :: toe = 0.0_wp, camber = 0.0_wp      !! [deg], signs of the deck
+      integer :: toe_line = 0, camber_line = 0
       type(spring_part_t) :: springs(2)
       type(bushing_part_t) :: bushings(3)
       logical :: has_link_axes = .false.             !! the axes of the joint of the trailing link on the chassis are given

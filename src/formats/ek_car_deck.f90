@@ -70,15 +70,17 @@ contains
       type(car_numbers_t), intent(in) :: numbers
       integer, intent(in) :: slots(:), axle
       type(writing_t), intent(inout) :: writing
-      character(:), allocatable :: lines
+      character(:), allocatable :: lines, file
       integer :: k, found
 
+      file = writing%file
+      if (numbers%source /= '') file = trim(numbers%source)
       lines = ''
       do k = 1, size(slots)
          found = find_car_number(numbers, slots(k), axle)
          if (found > 0) lines = lines//', '//str(numbers%list(found)%line)
       end do
-      call writing%deck%word('note', writing%file//':'//lines(3:))
+      call writing%deck%word('note', file//':'//lines(3:))
       call writing%deck%end()
    end subroutine put_note
 
@@ -123,6 +125,7 @@ contains
       end select
       if (text == '') return
       text = 'line '//str(numbers%list(k)%line)//': '//trim(slot_names(numbers%list(k)%slot))//': '//text
+      if (numbers%source /= '') text = trim(numbers%source)//', '//text
    end function unused_numbers
 
 end module ek_car_deck

@@ -42,6 +42,7 @@ module ek_car_number
    end type car_number_t
 
    type :: car_numbers_t
+      character(60) :: source = ''           !! file of the numbers; '': that of the points
       integer :: used = 0
       type(car_number_t) :: list(most)
    end type car_numbers_t

@@ -66,8 +66,8 @@ contains
          return
       end if
       table%length = 3                       ! m
-      call take_angle(tree, 'Camber Angle (deg)', facts%camber, facts%has_camber, flaws)
-      call take_angle(tree, 'Toe Angle (deg)', facts%toe, facts%has_toe, flaws)
+      call take_angle(tree, 'Camber Angle (deg)', facts%camber, facts%has_camber, facts%camber_line, flaws)
+      call take_angle(tree, 'Toe Angle (deg)', facts%toe, facts%has_toe, facts%toe_line, flaws)
       call take_springs(tree, template, table, facts, flaws)
       call take_bushings(tree, template, facts, flaws)
       call explain(tree, template, facts)
@@ -87,7 +87,7 @@ contains
          return
       else if (tree%leaves(k)%text /= 'Suspension') then
          call flaws%add(tree%leaves(k)%line, 'expected "Type": "Suspension", found '//shown(tree%leaves(k)%text)// &
-            '; import the file of a suspension')
+            '; import the file of a suspension, or of a vehicle')
          return
       end if
       k = find_leaf(tree, 'Template')

@@ -11,7 +11,7 @@ module ek_chrono_parts
    use ek_axle_facts, only: spring_part_t, bushing_part_t
    implicit none(type, external)
    private
-   public :: take_spring, take_bushing, take_axes, take_angle
+   public :: take_spring, take_bushing, take_axes, take_angle, take_value, take_positive
 
    integer, parameter :: most_points = 200      !! of a curve of a deck
 
@@ -320,11 +320,12 @@ contains
    end subroutine find_leaves
 
    !> Takes a static angle [deg]: camber is positive if the top leans outboard, toe is positive if the front edge is inboard.
-   subroutine take_angle(tree, key, value, has, flaws)
+   subroutine take_angle(tree, key, value, has, line, flaws)
       type(json_tree_t), intent(in) :: tree
       character(*), intent(in) :: key
       real(wp), intent(inout) :: value
       logical, intent(inout) :: has
+      integer, intent(inout) :: line                   !! unchanged without the angle
       type(flaws_t), intent(inout) :: flaws
       integer :: k
 
@@ -335,6 +336,7 @@ contains
       if (has) has = abs(tree%leaves(k)%value) < 45.0_wp
       if (has) then
          value = tree%leaves(k)%value
+         line = tree%leaves(k)%line
       else
          call flaws%add(tree%leaves(k)%line, 'expected '//shown(key)//' between -45 and 45, found '//shown(tree%leaves(k)%text))
       end if

@@ -143,7 +143,7 @@ contains
       found = findloc(templates%name == name, .true., dim=1)
    end function find_template
 
-   !> Whether a template has a place.
+   !> Whether a template has this point.
    pure logical function is_place_of(place, template)
       integer, intent(in) :: place, template           !! indices in places and templates
       associate (family => places(place)%family)

@@ -3,7 +3,7 @@
 module ek_foreign_deck
    use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, fail, exit_deck
-   use ek_text, only: lower
+   use ek_text, only: str, lower
    use ek_decimal, only: decimal
    use ek_letters, only: with_line_ends
    use ek_file, only: read_whole, most_of_input, join_path, folder_name, base_name, file_exists
@@ -17,6 +17,7 @@ module ek_foreign_deck
    use ek_axle_facts, only: axle_facts_t
    use ek_point_deck, only: put_points
    use ek_chrono, only: is_json, is_chrono, parse_chrono
+   use ek_chrono_vehicle, only: is_chrono_vehicle, parse_chrono_vehicle
    use ek_point_list, only: is_toml, as_json, parse_point_list
    use ek_shark, only: is_shark, parse_shark
    use ek_optimum_sheet, only: is_optimum_sheet, as_point_table
@@ -166,9 +167,11 @@ contains
       type(wish_t) :: given
       type(axle_facts_t) :: facts
       character(:), allocatable :: json                    !! or a table, converted
+      character(:), allocatable :: source                  !! file of the points
       real(wp) :: radius(2)
 
       if (present(wish)) given = wish
+      source = path
       call split_lines(content, lines, flaws)          ! reports a workbook and an empty file
       if (flaws%count() > 0) return
       if (is_shark(lines)) then
@@ -188,14 +191,18 @@ contains
          given%axes = 'iso'
          given%length = 'm'
          given%source = 'by the format of Chrono'
-         call parse_chrono(lines%text, table, facts, flaws)
+         if (is_chrono_vehicle(lines%text)) then
+            call parse_chrono_vehicle(lines%text, path, trim(given%axle), table, facts, source, flaws)
+         else
+            call parse_chrono(lines%text, table, facts, flaws)
+         end if
       else if (is_optimum_sheet(lines)) then
          call as_point_table(lines, json, facts%omitted)
          call parse_points(json, table, flaws)
       else
          call parse_points(content, table, flaws)
       end if
-      if (flaws%count() == 0) call put_points(table, given, facts, path, text, flaws)
+      if (flaws%count() == 0) call put_points(table, given, facts, source, text, flaws)
    end subroutine import_table
 
    !> Takes the loaded radius of the chosen axle of a model of Lotus Shark as the height of the wheel centre, if --datum is not
@@ -255,6 +262,7 @@ contains
          call deck%begin('point')
          call deck%word('name', name)
          call deck%numbers('at', at/millimetre)
+         call deck%word('note', plain_name(path)//':'//str(sheet%points(k)%line))
          call deck%end()
       end subroutine put
 
@@ -277,12 +285,12 @@ contains
       call deck%comment('from '//path)
       call deck%comment('the element, to be completed by its bodies and points, is in the comment below')
       if (property%kind == bushing_file) then
-         call put_curves(deck, name, property%laws, 'akima')
+         call put_curves(deck, name, property%laws, 'akima', plain_name(path))
          call element%begin('bushing')
          call element%word('name', name)
          call put_bushing_law(element, name, property%laws)
       else
-         call put_curve(deck, name, property%laws(1), 1, 'akima')
+         call put_curve(deck, name, property%laws(1), 1, 'akima', plain_name(path))
          if (property%kind == spring_file) then
             call element%begin('spring')
          else
@@ -296,6 +304,13 @@ contains
       call element%end()
       text = deck%text()//commented(element%text())
    end subroutine import_law
+
+   !> The name of a file without its folder, for notes.
+   pure function plain_name(path) result(name)
+      character(*), intent(in) :: path
+      character(:), allocatable :: name
+      name = path(index(path, '/', back=.true.) + 1:)
+   end function plain_name
 
    !> A string in which every line is a comment of a deck.
    function commented(text) result(lines)

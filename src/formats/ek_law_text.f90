@@ -1,5 +1,6 @@
 !> Laws of property files as groups of a deck in mm, N, deg.
 module ek_law_text
+   use ek_text, only: str
    use ek_kinds, only: wp, degree, millimetre
    use ek_deck_text, only: deck_text_t
    use ek_law_points, only: law_points_t, constant_rate
@@ -21,11 +22,12 @@ contains
    end subroutine units_of_law
 
    !> Writes a law as a record &curve.
-   subroutine put_curve(deck, name, law, component, kind)
+   subroutine put_curve(deck, name, law, component, kind, file)
       type(deck_text_t), intent(inout) :: deck
       character(*), intent(in) :: name, kind
       type(law_points_t), intent(in) :: law
       integer, intent(in) :: component           !! component of a bushing; 1 for a spring or a stop
+      character(*), intent(in), optional :: file !! the note is this file with the line of the law; default: no note
       real(wp) :: x_unit, y_unit
 
       call units_of_law(component, millimetre, 1.0_wp, degree, x_unit, y_unit)
@@ -34,14 +36,16 @@ contains
       call deck%word('kind', kind)
       call deck%numbers('x', law%x(:law%used)/x_unit)
       call deck%numbers('y', law%y(:law%used)/y_unit)
+      if (present(file)) call deck%word('note', file//':'//str(law%line))
       call deck%end()
    end subroutine put_curve
 
    !> Writes a &curve, named <name>_fx …, for each component of a bushing without a constant rate of 0 or more.
-   subroutine put_curves(deck, name, laws, kind)
+   subroutine put_curves(deck, name, laws, kind, file)
       type(deck_text_t), intent(inout) :: deck
       character(*), intent(in) :: name, kind
       type(law_points_t), intent(in) :: laws(6)
+      character(*), intent(in), optional :: file !! see put_curve
       real(wp) :: rate
       logical :: is_constant
       integer :: k
@@ -49,7 +53,7 @@ contains
       do k = 1, 6
          call constant_rate(laws(k), rate, is_constant)
          if (is_constant .and. rate >= 0.0_wp) cycle
-         call put_curve(deck, name//'_'//component_names(k), laws(k), k, kind)
+         call put_curve(deck, name//'_'//component_names(k), laws(k), k, kind, file)
       end do
    end subroutine put_curves
 

@@ -106,7 +106,7 @@ contains
       rod_name = ''
       if (kinds(kind)%has_rod .and. .not. facts%bushings(rod_slot)%is_given) rod_name = trim(merge('tie_rod', 'toe_rod', &
          is_steered))
-      call put_head(points, frame, kind, facts, writing)
+      call put_head(points, frame, kind, facts, is_steered, writing)
       call mark_written(half, kind, rod, is_steered, facts, writing)
       call put_left_out(half, table, frame, facts, writing)
       call put_other_groups(table, points%axle, is_steered, rod_name, has_springs(facts), writing)
@@ -152,11 +152,12 @@ contains
    end subroutine turn_points
 
    !> Writes the comments on the source and on the decisions.
-   subroutine put_head(points, frame, kind, facts, writing)
+   subroutine put_head(points, frame, kind, facts, is_steered, writing)
       type(point_set_t), intent(in) :: points
       type(frame_t), intent(in) :: frame
       integer, intent(in) :: kind
       type(axle_facts_t), intent(in) :: facts
+      logical, intent(in) :: is_steered
       type(writing_t), intent(inout) :: writing
       integer :: k
 
@@ -186,6 +187,7 @@ contains
             call writing%deck%comment('  static camber 0: the source does not give it')
          end if
       end if
+      if (is_steered) call writing%deck%comment('  the tie rods end on a rack, which moves along y')
       do k = 1, facts%assumed%count()
          call writing%deck%comment('  '//facts%assumed%line(k))
       end do
@@ -392,6 +394,7 @@ contains
          call writing%deck%words('steer_axis', trim(point_names(lower_ball)), trim(point_names(strut_top)))
       end select
       if (has_knuckles(kind)) call writing%deck%words('steer_axis', trim(point_names(kingpin_low)), trim(point_names(kingpin_top)))
+      if (facts%has_toe .or. facts%has_camber) call writing%deck%word('note', angle_note(facts, writing%file))
       call writing%deck%end()
       call writing%deck%blank()
       call writing%deck%comment('assumed: the range, a tenth of the loaded radius')
@@ -401,6 +404,18 @@ contains
       call writing%deck%number('to', range_of(radius))
       call writing%deck%end()
    end subroutine put_wheel
+
+   !> The lines of the static angles that the file gives.
+   pure function angle_note(facts, file) result(note)
+      type(axle_facts_t), intent(in) :: facts
+      character(*), intent(in) :: file
+      character(:), allocatable :: note
+
+      note = file//':'
+      if (facts%has_toe) note = note//str(facts%toe_line)
+      if (facts%has_toe .and. facts%has_camber) note = note//', '
+      if (facts%has_camber) note = note//str(facts%camber_line)
+   end function angle_note
 
    !> The body with the wheel.
    pure function wheel_body(kind) result(body)

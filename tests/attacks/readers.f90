@@ -1,4 +1,4 @@
-!> readers MUTATIONS FILE...: reads that many mutations of each kind of file with the readers of other programs' files.
+!> readers MUTATIONS FILE...: reads that many mutations of each file with the readers of other programs' files.
 !>
 !> A mutation is the text with one to eight changes: a byte flipped, removed or inserted, a stretch doubled, removed or moved,
 !> a line doubled or removed, a number or word replaced by a hostile one, the end cut off. Number k of a seed is always the same text.
@@ -43,7 +43,7 @@ program readers
          write (error_unit, '(a)') error%message
          error stop 1, quiet=.true.
       end if
-      do k = 1, mutations/files + 1
+      do k = 1, mutations
          state = int(k, int64)*2654435761_int64 + int(f, int64)*40503_int64 + 88172645463325252_int64
          changed = text
          last = random(8)*random(2)            ! one change in every second text
@@ -164,6 +164,9 @@ contains
          call judge(flaws, kind, deck_text)
          flaws = new_flaws('mutation')
          call import_text(text, 'mutation', deck_text, kind, flaws, wish_t(datum='radius:0.3', axle='front'))
+         call judge(flaws, kind, deck_text)
+         flaws = new_flaws('mutation')
+         call import_text(text, 'mutation', deck_text, kind, flaws, wish_t(datum='ground', axle='front'))
          call judge(flaws, kind, deck_text)
          flaws = new_flaws('mutation')
          call import_text(text, 'mutation', deck_text, kind, flaws, wish_t(axes='rear,right,up', length='mm', axle='rear', &
