@@ -196,7 +196,8 @@ int ek_poses(ek_model *model, int row, int n, double *values);
  * equilibrium and of the trimmed preloads (`balance`). For a case with follow = 'arc', or with a method other than
  * equilibrium, ek_derivatives returns EK_USAGE.
  *   columns: columns of the case, also columns not requested in ek_solve; or entries of the compliance matrix, with the
- *            names in the files of run --compliance
+ *            names in the files of run --compliance; after ek_define also columns of the program, with the names of
+ *            ek_column_name
  *   paths:   as in ek_set; each path must lead to one number, or to the corresponding numbers on both sides of a
  *            mirrored axle
  *   errors:  estimated errors of the derivatives, in the order of values; may be NULL

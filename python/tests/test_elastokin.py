@@ -272,6 +272,12 @@ class Solving(unittest.TestCase):
         self.assertEqual("Castor Trail (hub)", lotus.titles["left Castor Trail (hub) [mm]"])
         self.assertEqual("axis aft of the centre", lotus.signs["left Castor Trail (hub) [mm]"])
         self.assertEqual("", lotus.units["converged"])
+        names = ["left Castor Trail (hub) [mm]", "left_spindle_offset_mm"]
+        found = lotus.derivatives(names, ["point.left_lower_ball_joint.x"], 10)
+        self.assertGreater(abs(found.values[1, 0]), 0.1)
+        self.assertAlmostEqual(-found.values[1, 0], found.values[0, 0], delta=1e-9)
+        with self.assertRaisesRegex(elastokin.UsageError, "left Castor Trail"):
+            lotus.derivatives("left Castor Trail", "point.left_lower_ball_joint.x", 10)
         self.assertIn("left_toe_deg", self.model.solve("parallel_travel"))
         with self.assertRaisesRegex(elastokin.UsageError, "did you mean 'lotus'"):
             self.model.solve("parallel_travel", definitions="lotos")

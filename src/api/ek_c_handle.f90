@@ -30,6 +30,7 @@ module ek_c_handle
       type(message_list_t) :: number_names, number_units, number_definitions      !! lists of key numbers, made at first request
       type(model_remarks_t) :: remarks                       !! messages on the model at the last request
       type(table_t), allocatable :: defined                  !! table of the last solution in other definitions, if requested
+      character(10) :: program = ''                          !! the program of these definitions; '' for elastokin
       integer, allocatable :: defined_rows(:)                !! of each of its columns: index in `definitions`; 0 for none
    end type handle_t
 

@@ -42,6 +42,7 @@ contains
       if (code /= ek_ok) return
       call from_c(name, case)
       if (allocated(handle%defined)) deallocate (handle%defined, handle%defined_rows)
+      handle%program = ''
       call solve(handle%session, case, error, names)
       code = finish(handle, error)
    end function ek_solve
@@ -60,6 +61,7 @@ contains
       call begin_words()
       if (name /= '') call check_program(name, error)
       if (.not. allocated(error) .and. allocated(handle%defined)) deallocate (handle%defined, handle%defined_rows)
+      if (.not. allocated(error)) handle%program = name
       if (.not. allocated(error) .and. name /= '') then
          allocate (handle%defined)
          call defined_table(last%suspension, last%table, name, handle%defined, handle%defined_rows)
@@ -360,7 +362,7 @@ contains
       if (code == ek_ok) call take_names(handle, paths, n_numbers, numbers, code)
       if (code /= ek_ok) return
       allocate (slopes(n_columns, n_numbers), doubts(n_columns, n_numbers))
-      call find_slopes(handle%session, row + 1, names, numbers, slopes, doubts, error)
+      call find_slopes(handle%session, row + 1, names, numbers, slopes, doubts, error, trim(handle%program))
       code = finish(handle, error)
       if (code /= ek_ok) return
       call c_f_pointer(values, place, [n_columns*n_numbers])

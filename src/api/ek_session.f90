@@ -15,6 +15,7 @@ module ek_session
    use ek_workspace, only: workspace_t, put_numbers, settle_model
    use ek_workspace_cases, only: open_workspace, report_cases
    use ek_named_numbers, only: named_numbers_t
+   use ek_defined_column, only: defined_t
    use ek_derivatives, only: derivatives_t
    use ek_kept_files, only: kept_files_t
    use ek_deck_writer, only: deck_as_used
@@ -38,7 +39,11 @@ module ek_session
    type :: derived_t
       type(derivatives_t) :: derivatives
       character(name_length), allocatable :: columns(:), paths(:)      !! columns and paths as the caller wrote them
-      integer, allocatable :: column(:), direction(:)                  !! index of each column and each path in `derivatives`
+      integer, allocatable :: column(:), direction(:)                  !! index of each column and each path in `derivatives`; of a
+                                                                       !! column of another program −index in `defined`
+      character(10) :: program = ''                                    !! other program whose columns may be named; '': none
+      type(defined_t), allocatable :: list(:)                          !! columns of this program that were named
+      type(derivatives_t) :: defined
    end type derived_t
 
    !> A deck, its present numbers, and its last solution. A caller may read the components, but must change them through procedures.

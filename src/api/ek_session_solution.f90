@@ -19,6 +19,9 @@ module ek_session_solution
    use ek_workspace_cases, only: heads_of_case, case_number, report_cases
    use ek_session, only: session_t, without_option, prepared_t, take_new_numbers, reread, derived_t
    use ek_direction, only: direction_t, find_directions, refuse_shared
+   use ek_defined_column, only: defined_t, define_columns, keep_named
+   use ek_defined_table, only: needed_columns
+   use ek_defined_slopes, only: begin_defined, define_derivatives
    use ek_derivatives, only: derivatives_t, begin_derivatives, find_derivatives, refuse_case
    use ek_case, only: case_t
    use ek_named_numbers, only: named_numbers_t, prepare_numbers, read_numbers, needed_tests, explain_missing
@@ -272,14 +275,16 @@ contains
    !> Computes the derivatives of columns in one row of the last solution with respect to numbers of the deck, and estimates of
    !> their errors [unit of the column per unit of the number]. No solution is repeated (ek_derivatives). A derivative is NaN if the
    !> state did not converge, if the column has no value at the state, or if the number cannot be changed.
-   subroutine find_slopes(session, row, columns, paths, slopes, errors, error)
+   subroutine find_slopes(session, row, columns, paths, slopes, errors, error, program)
       type(session_t), intent(inout), target :: session
       integer, intent(in) :: row                               !! row of the table of the last solution
       character(*), intent(in) :: columns(:)  !! columns of the case (requested or not), or of its compliance matrix
       character(*), intent(in) :: paths(:)                     !! as in set_number, each of one number, or of both sides of an axle
       real(wp), intent(out) :: slopes(:, :), errors(:, :)      !! (column, path)
       type(error_t), allocatable, intent(out) :: error         !! exit_usage: wrong row, column or path; no derivatives of the case
+      character(*), intent(in), optional :: program            !! other program, whose columns may also be named by their headings
       type(case_result_t), pointer :: result
+      character(10) :: other
       integer :: state
       logical :: is_ready
 
@@ -292,10 +297,12 @@ contains
       end if
       call find_row(session, row, result, state, error)
       if (allocated(error)) return
-      is_ready = is_prepared(session, columns, paths)
+      other = ''
+      if (present(program)) other = program
+      is_ready = is_prepared(session, columns, paths, other)
       if (.not. is_ready) then
          call begin_words()
-         call prepare_derivatives(session, columns, paths, error)
+         call prepare_derivatives(session, columns, paths, other, error)
          call end_words()
          if (allocated(error)) return
       end if
@@ -314,39 +321,48 @@ contains
          integer :: c, p
 
          call find_derivatives(workspace, [state], derived%derivatives)
+         if (derived%program /= '') call define_derivatives(workspace, derived%list, derived%derivatives, derived%defined)
          do p = 1, size(paths)
             do c = 1, size(columns)
-               slopes(c, p) = derived%derivatives%slopes(derived%column(c), derived%direction(p), 1)
-               errors(c, p) = derived%derivatives%errors(derived%column(c), derived%direction(p), 1)
+               associate (place => derived%column(c), direction => derived%direction(p))
+                  if (place > 0) then
+                     slopes(c, p) = derived%derivatives%slopes(place, direction, 1)
+                     errors(c, p) = derived%derivatives%errors(place, direction, 1)
+                  else
+                     slopes(c, p) = derived%defined%slopes(-place, direction, 1)
+                     errors(c, p) = derived%defined%errors(-place, direction, 1)
+                  end if
+               end associate
             end do
          end do
       end subroutine find
 
    end subroutine find_slopes
 
-   !> Whether the last request had the same columns, paths, case and workspace.
-   pure logical function is_prepared(session, columns, paths)
+   !> Whether the last request had the same columns, paths, program, case and workspace.
+   pure logical function is_prepared(session, columns, paths, program)
       type(session_t), intent(in) :: session
-      character(*), intent(in) :: columns(:), paths(:)
+      character(*), intent(in) :: columns(:), paths(:), program
 
       is_prepared = .false.
       if (.not. allocated(session%derived) .or. allocated(session%other)) return
       associate (derived => session%derived)
          if (derived%derivatives%case /= session%solved .or. size(columns) /= size(derived%columns)) return
          if (size(paths) /= size(derived%paths)) return
-         is_prepared = all(columns == derived%columns) .and. all(paths == derived%paths)
+         is_prepared = all(columns == derived%columns) .and. all(paths == derived%paths) .and. program == derived%program
       end associate
    end function is_prepared
 
    !> Prepares directions, columns and work space. Creates strings.
-   subroutine prepare_derivatives(session, columns, paths, error)
+   subroutine prepare_derivatives(session, columns, paths, program, error)
       type(session_t), intent(inout), target :: session
       character(*), intent(in) :: columns(:), paths(:)
+      character(*), intent(in) :: program                      !! '': none
       type(error_t), allocatable, intent(out) :: error
       type(direction_t), allocatable :: directions(:)
       type(message_list_t) :: mistakes
       class(workspace_t), pointer :: workspace
-      character(name_length), allocatable :: heads(:)
+      character(name_length), allocatable :: heads(:), needed(:)
       integer :: c
 
       workspace => session%workspace
@@ -356,16 +372,23 @@ contains
       if (.not. allocated(session%derived)) allocate (session%derived)
       associate (derived => session%derived)
          call place_paths(workspace, session, paths, directions, derived%direction, mistakes)
-         if (mistakes%count() == 0) call begin_derivatives(workspace, session%solved, columns, directions, derived%derivatives)
+         needed = columns
+         if (program /= '') call add_needed(workspace, session%solved, columns, trim(program), needed)
+         if (mistakes%count() == 0) call begin_derivatives(workspace, session%solved, needed, directions, derived%derivatives)
+         if (mistakes%count() == 0 .and. program /= '') call begin_defined(workspace, trim(program), columns, derived%derivatives, &
+            derived%list, derived%defined)
          derived%column = spread(0, 1, size(columns))
          do c = 1, size(columns)
             if (mistakes%count() > 0) exit
             derived%column(c) = findloc(derived%derivatives%columns == columns(c), .true., dim=1)
+            if (derived%column(c) == 0 .and. program /= '') &
+               derived%column(c) = -findloc(derived%list%head == columns(c), .true., dim=1)
          end do
          if (mistakes%count() == 0 .and. any(derived%column == 0)) then
             call heads_of_case(session%solved, workspace, heads)
+            if (program /= '') heads = [character(name_length) :: heads, heads_of_program(workspace, session%solved, trim(program))]
             do c = 1, size(columns)
-               if (derived%column(c) > 0) cycle
+               if (derived%column(c) /= 0) cycle
                if (any(heads == columns(c))) then
                   call mistakes%add(quoted(trim(columns(c)))//' describes the solution and has no derivative')
                else
@@ -375,11 +398,40 @@ contains
          end if
          derived%columns = columns
          derived%paths = paths
+         derived%program = program
       end associate
       if (mistakes%count() == 0) return
       call fail(error, exit_usage, mistakes%text())
       session%derived%derivatives%case = 0        ! kept as room; is_prepared knows that it is no answer
    end subroutine prepare_derivatives
+
+   !> Adds the columns of elastokin from which named columns of another program follow.
+   subroutine add_needed(workspace, case, columns, program, needed)
+      class(workspace_t), intent(in) :: workspace
+      integer, intent(in) :: case
+      character(*), intent(in) :: columns(:), program
+      character(name_length), allocatable, intent(inout) :: needed(:)
+      character(name_length), allocatable :: heads(:)
+      type(defined_t), allocatable :: list(:)
+
+      call heads_of_case(case, workspace, heads)
+      call define_columns(workspace%cases(case)%result%suspension, heads, program, list)
+      call keep_named(columns, list)
+      call needed_columns(heads, list, needed)
+   end subroutine add_needed
+
+   !> The headings of all columns of another program in a case.
+   function heads_of_program(workspace, case, program) result(names)
+      class(workspace_t), intent(in) :: workspace
+      integer, intent(in) :: case
+      character(*), intent(in) :: program
+      character(name_length), allocatable :: names(:), heads(:)
+      type(defined_t), allocatable :: list(:)
+
+      call heads_of_case(case, workspace, heads)
+      call define_columns(workspace%cases(case)%result%suspension, heads, program, list)
+      names = list%head
+   end function heads_of_program
 
    !> Finds the direction of each path. A path that leads to more or fewer than one direction is an error.
    subroutine place_paths(workspace, session, paths, directions, place, mistakes)

@@ -221,6 +221,8 @@ module ek_definition_rows
       ' + sin(design_toe)*foot_x)', 'twice that of the wheel; contact point as for the scrub radius'), &
       definition_t('ipg', 'vertical_force_n', 'wheel load', 'N', 'ground on wheel', 'vertical_force_n'), &
       definition_t('ipg', '<spring>_force_n', 'force', 'N', 'compression', '#_force_n'), &
+      definition_t('ipg', '<bushing>_fx_n', 'joint force', difference=beyond//': only IPGKinematics halves the force along an '// &
+      'arm between its two bushings; the sum of both is the same'), &
       definition_t('ipg', 'contact_patch_z_mm', 'road height', difference=beyond// &
       ': the tyre deflects as at 0.6 of the radius, so 0.4 of the rise of the contact point is missing in it', &
       errs='the force of the tyre acts at the whole radius, its deflection is taken at 0.6 of it'), &

@@ -18,7 +18,8 @@ contains
       character(*), intent(in) :: settings(:)                   !! 'group.name.key=value', applied in this order; blank: none
       type(table_t), intent(out) :: table                       !! without a row when there is trouble
       character(:), allocatable, intent(out) :: trouble         !! what went wrong, '' if all is well
-      character(*), intent(in), optional :: program             !! whose definitions `defined` has, as with --definitions
+      character(*), intent(in), optional :: program             !! whose definitions `defined` has. As with
+                                                                !! --definitions, the case then has all quantities
       type(table_t), intent(out), optional :: defined
       type(deck_t) :: deck
       type(trial_t) :: trial
@@ -34,6 +35,7 @@ contains
          if (allocated(error)) exit
          call set_value(deck, place, value, error)
       end do
+      if (present(program) .and. .not. allocated(error)) call set_value(deck, 'case.'//case_name//'.quantities', 'all', error)
       call go_through(deck, case_name, error, trial)
       trouble = trial%trouble
       table = trial%table

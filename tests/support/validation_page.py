@@ -40,6 +40,8 @@ Source: the front double wishbone of the shared database of Adams/Car 2024.1, pu
 - Camber and toe are those of `--definitions adams`. In the repository x is forward, y to the right, z up, and toe is
   positive for toe-out, against the sign of Adams/Car. The published state at design differs from the hardpoints by
   up to 9e-8 mm and 3e-8 deg. This offset is subtracted at every other state, so the design state is not compared.
+- The wheel centre is the hardpoint plus the displacement of elastokin, because its axes are those of the repository.
+  The rotation per force is an entry of the compliance, for which no definition is a column.
 - Compliance: the four inner pivots are isotropic bushings (1e4 N/mm, 1e7 N mm/rad). The rotation is the component
   along y of the rotation vector of the carrier. Adams/Car gives it at -100 N. The rows marked Newton are from
   an independent solver of the same model, not from Adams/Car: smaller forces, and all rates times a factor.
@@ -51,7 +53,8 @@ compliances beside design have 5. Decks: `fse04_front.nml` to `pltka_rear.nml`. 
 of each quantity over all axles and states; these are the rows of the pose of the wheel.
 
 - The pose of the wheel (R = Rz(rz) Rx(rx) Ry(ry), x forward, y left), caster, kingpin inclination, hub offsets,
-  trail, scrub radius, track change and loads are those of `--definitions ipg`.
+  trail, scrub radius, track change and loads are those of `--definitions ipg`. Neither deck nor case has another option for
+  them.
 - Compliance: the difference of two states under ±1000 N or ±100 N m at the wheel centre, divided by twice the load,
   with the road held. elastokin solves the same states. Each entry is divided by √(Cii Cjj). For z, 1e-5 m/N takes the
   place of the diagonal. The matrix is unsymmetric by up to 5 % of an entry, because its rotations are differences of
@@ -69,7 +72,7 @@ of each quantity over all axles and states; these are the rows of the pose of th
   known to 2.4e-3 mm, which limits scrub radius and track. The published track change is not zero at design, but up to
   2e-3 mm.
 - Forces at design: elastokin and IPGKinematics share the x-force of an arm differently between its two bushings. So
-  the sum of both is compared.
+  the sum of both is compared, from the columns of elastokin.
 - Steering: at the published heights of the wheel centres. The wheel load acts at the contact point of the carrier in
   elastokin, and at a contact point that does not turn with the carrier in IPGKinematics.
 

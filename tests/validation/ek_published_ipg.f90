@@ -43,7 +43,7 @@ contains
 
       do k = 1, size(axles)
          list%part = axles(k)
-         call solve(list, trim(axles(k)), 'loads', ['case.loads.quantities=all'], table, 'ipg', defined)
+         call solve(list, trim(axles(k)), 'loads', [character(1) :: ''], table, 'ipg', defined)
          if (allocated(list%trouble)) return
          call check_roads(list, trim(axles(k)), table)
          call compare_states(list, trim(axles(k)), defined)
@@ -315,7 +315,7 @@ contains
       integer :: k, s, q
 
       call read_numbers(list, axle//'_racks', theirs)
-      call solve(list, axle, 'racks', ['case.racks.quantities=all'], own, 'ipg', table)
+      call solve(list, axle, 'racks', [character(1) :: ''], own, 'ipg', table)
       do k = 1, row_count(theirs)
          do s = 1, 2
             pose = pose_of(table, k, s)

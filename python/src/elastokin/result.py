@@ -118,7 +118,8 @@ class Result:
     def derivatives(self, columns: Sequence[str], numbers: Sequence[str], row: int) -> Derivatives:
         """Exact derivatives of columns with respect to parameters of the deck at a state. No solution is repeated.
 
-        `columns`: columns of the case, or entries of its compliance matrix (names as in `elastokin run --compliance`). `numbers`: paths;
+        `columns`: columns of the case, or entries of its compliance matrix (names as in `elastokin run --compliance`); for a result with
+        `definitions`, also its columns ("left Toe Angle [deg]"). `numbers`: paths;
         each stands for one number, or for this number on both sides of a mirrored axle. Derivatives account for the change of the
         state, of the static equilibrium and of the trimmed preloads (balance). They are available until the model solves its next
         case. Raises UsageError, also for a case with a method other than "equilibrium".
