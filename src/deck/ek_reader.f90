@@ -31,6 +31,7 @@ module ek_reader
    use ek_assembly, only: add_gravity, add_start_loads
    use ek_blueprint, only: blueprint_t, new_blueprint
    use ek_free_wheels, only: find_free_wheels
+   use ek_markers, only: list_markers
    use ek_realise, only: new_design, realise
    use ek_case, only: case_t, manoeuvre_t
    implicit none(type, external)
@@ -221,6 +222,7 @@ contains
       has_crown = any([(reading%cards(k)%group == wheel_group .and. is_given(reading%records(k), 'crown_radius'), &
          k=1, size(reading%records))])
       do j = 1, size(reading_order)
+         if (reading_order(j) == adjuster_group) call list_markers(reading%plan)
          do k = 1, size(reading%records)
             if (reading%cards(k)%group /= reading_order(j)) cycle
             if (reading_order(j) == wheel_group .and. ((j == early) .neqv. has_crown)) cycle
@@ -333,6 +335,7 @@ contains
       call move_alloc(points, reading%plan%prototype%points)
       call add_gravity(reading%plan%prototype)
       call choose_start(reading)
+      call list_markers(reading%plan)      ! again, with the weights
    end subroutine complete_prototype
 
    !> Selects the start state of the tests (ek_start), and adds the loads that it needs. A preload trim holds the design position,

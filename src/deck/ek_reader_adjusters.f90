@@ -4,8 +4,8 @@ module ek_reader_adjusters
    use ek_text, only: str, quoted
    use ek_dimension, only: length, unit_name
    use ek_measure, only: is_of_angle
-   use ek_adjuster, only: adjuster_t, place_t, align_t, is_reachable, rod_of_joint, seat, of_term, of_element, of_joint, &
-      of_readout, of_load, of_centre, of_contact, of_axis
+   use ek_adjuster, only: adjuster_t, place_t, align_t, is_reachable, rod_of_joint, seat
+   use ek_suspension, only: of_element, of_centre, of_contact, of_body, of_mass
    use ek_blueprint, only: adjuster_plan_t, align_plan_t, vector_t, along
    use ek_group, only: joint_group, spring_group, wheel_group, adjuster_group, word_length, max_adjusted
    use ek_deck_reading, only: deck_reading_t, complain, where_of, has_key, choice, text_of, texts_of, number_of, value_count, &
@@ -270,8 +270,8 @@ contains
       end associate
    end subroutine find_seat
 
-   !> Adds all arms at a point of the body of an adjuster. A point without an arm is reported. With the centre of a wheel with a
-   !> crown, its contact point moves, and with it the loads and measures there.
+   !> Adds all markers at a point of the body of an adjuster. A point without a marker is reported. With the centre of a wheel with
+   !> a crown, its contact point moves, and with it the loads and measures there. Centres of gravity stay.
    recursive subroutine add_places(reading, adjuster, key, point, share, places)
       type(deck_reading_t), intent(inout) :: reading
       type(adjuster_t), intent(in) :: adjuster
@@ -279,87 +279,29 @@ contains
       integer, intent(in) :: point              !! index of the vector
       real(wp), intent(in) :: share
       type(place_t), allocatable, intent(inout) :: places(:)
-      integer :: before, k, t, r, first, bodies(2)
+      integer :: before, k
 
       before = size(places)
-      associate (plan => reading%plan, model => reading%plan%prototype)
-         do k = 1, size(model%joints)
-            first = model%rows(model%joints(k)%first_row)%first
-            if (allocated(plan%joints(k)%readouts)) then
-               do t = 1, size(plan%joints(k)%readouts)
-                  r = plan%joints(k)%readouts(t)
-                  bodies = [model%readouts(r)%measure%body_i, model%readouts(r)%measure%body_j]
-                  call add_ends(of_term, first + t - 1, plan%readouts(r)%ends, bodies)
-               end do
-               cycle
-            end if
-            bodies = [model%joints(k)%body_i, model%joints(k)%body_j]
-            do t = first, first + sum(model%rows(model%joints(k)%first_row:model%joints(k)%first_row + &
-               model%joints(k)%rows - 1)%terms) - 1
-               if (.not. is_of_angle(model%terms(t)%measure%kind) .or. adjuster%has_pivot) &
-                  call add_ends(of_term, t, plan%joints(k)%ends, bodies)
-            end do
-            if (bodies(2) == adjuster%body .and. plan%joints(k)%ends(2) == point) call add(of_joint, k, 2)
-         end do
-         do k = 1, size(plan%readouts)
-            bodies = [model%readouts(k)%measure%body_i, model%readouts(k)%measure%body_j]
-            call add_ends(of_readout, k, plan%readouts(k)%ends, bodies)
-         end do
-         do k = 1, size(plan%elements)
-            bodies = [model%elements(k)%measure%body_i, model%elements(k)%measure%body_j]
-            if (plan%elements(k)%readout > 0) then
-               call add_ends(of_element, k, plan%readouts(plan%elements(k)%readout)%ends, bodies)
-            else
-               call add_ends(of_element, k, plan%elements(k)%ends, bodies)
-            end if
-         end do
-         do k = 1, size(plan%bushings)
-            bodies = [model%elements(model%scalars + k)%measure%body_i, model%elements(model%scalars + k)%measure%body_j]
-            if (adjuster%has_pivot .and. bodies(1) == adjuster%body .and. plan%bushings(k)%ends(1) == point) &
-               call complain(reading, 'pivot', 'pivot: the bushing '//quoted(model%elements(model%scalars + k)%name)// &
-               ' has its axes on the body that turns; exchange its two bodies')
-            call add_ends(of_element, model%scalars + k, plan%bushings(k)%ends, bodies)
-         end do
-         do k = 1, size(plan%loads)
-            if (model%loads(k)%body == adjuster%body .and. plan%loads(k)%at == point) call add(of_load, k, 1)
-         end do
-         do k = 1, size(plan%wheels)
-            if (model%wheels(k)%body /= adjuster%body) cycle
-            if (adjuster%has_pivot .and. any([plan%wheels(k)%centre, plan%wheels(k)%contact] == point)) then
+      do k = 1, size(reading%plan%prototype%markers)
+         associate (this => reading%plan%prototype%markers(k), model => reading%plan%prototype)
+            if (this%body /= adjuster%body .or. this%point /= point .or. any(this%part == [of_body, of_mass])) cycle
+            if (this%only_turns .and. .not. adjuster%has_pivot) cycle
+            if (adjuster%has_pivot .and. any(this%part == [of_centre, of_contact])) then
                call complain(reading, key, key//': a wheel cannot turn about the pivot against its own body; let the points of '// &
                   'the suspension on this body turn instead')
                return
             end if
-            if (plan%wheels(k)%contact == point) call add(of_contact, k, 1)
-            if (plan%wheels(k)%centre == point) then
-               call add(of_centre, k, 1)
-               if (model%wheels(k)%has_crown) call add_places(reading, adjuster, key, plan%wheels(k)%contact, share, places)
-            end if
-            do t = 1, 2
-               if (plan%wheels(k)%steer_axis(t) == point) call add(of_axis, k, t)
-            end do
-         end do
-      end associate
+            if (adjuster%has_pivot .and. this%part == of_element .and. this%index > model%scalars .and. this%side == 1) &
+               call complain(reading, 'pivot', 'pivot: the bushing '//quoted(model%elements(this%index)%name)// &
+               ' has its axes on the body that turns; exchange its two bodies')
+            places = [places, place_t(0, k, share)]
+            if (this%part /= of_centre) cycle
+            if (model%wheels(this%index)%has_crown) &
+               call add_places(reading, adjuster, key, reading%plan%wheels(this%index)%contact, share, places)
+         end associate
+      end do
       if (size(places) == before .and. reading%cards(reading%k)%is_good) call complain(reading, key, key// &
          ': no joint, spring or bushing of the body '//quoted(text_of(reading, 'body'))//' is at a point that the adjuster moves')
-
-   contains
-
-      !> Adds the ends of a part that are at the point, on the body of the adjuster.
-      subroutine add_ends(part, index, ends, bodies)
-         integer, intent(in) :: part, index, ends(2), bodies(2)
-         integer :: side
-
-         do side = 1, 2
-            if (ends(side) == point .and. bodies(side) == adjuster%body) call add(part, index, side)
-         end do
-      end subroutine add_ends
-
-      subroutine add(part, index, side)
-         integer, intent(in) :: part, index, side
-         places = [places, place_t(0, part, index, side, share)]
-      end subroutine add
-
    end subroutine add_places
 
 end module ek_reader_adjusters

@@ -3,6 +3,7 @@ module ek_reader_parts
    use ek_text, only: quoted
    use ek_record, only: element, own_name, single
    use ek_group, only: joint_group, body_group, part_name
+   use ek_suspension, only: of_term
    use ek_blueprint, only: part_plan_t
    use ek_deck_reading, only: deck_reading_t, complain, text_of, has_key, slot
    use ek_reference, only: look_up, find_body, find_point
@@ -129,56 +130,19 @@ contains
       integer :: k
 
       is_there = .false.
-      associate (plan => reading%plan, model => reading%plan%prototype)
-         do k = 1, size(plan%joints)
-            if (allocated(plan%joints(k)%readouts)) cycle
-            if (row > 0) then
-               if (model%joints(k)%first_row == row) is_there = any(plan%joints(k)%ends == point)
-            else
-               call see([model%joints(k)%body_i, model%joints(k)%body_j], plan%joints(k)%ends, plan%joints(k)%axes)
-            end if
-         end do
-         if (row > 0) return
-         do k = 1, size(plan%readouts)
-            call see([model%readouts(k)%measure%body_i, model%readouts(k)%measure%body_j], plan%readouts(k)%ends, &
-               [plan%readouts(k)%u, plan%readouts(k)%v])
-         end do
-         do k = 1, size(plan%elements)
-            call see([model%elements(k)%measure%body_i, model%elements(k)%measure%body_j], plan%elements(k)%ends, &
-               [plan%elements(k)%axis, 0])
-         end do
-         do k = 1, size(plan%bushings)
-            associate (of => model%elements(model%scalars + k)%measure, this => plan%bushings(k))
-               call see([of%body_i, of%body_j], this%ends, [this%z, 0])
-               call see([of%body_i, of%body_j], this%ends, [this%x, 0])
+      associate (model => reading%plan%prototype)
+         do k = 1, size(model%markers)
+            associate (this => model%markers(k))
+               if (row > 0) then
+                  if (this%part == of_term .and. this%index == model%rows(row)%first) is_there = is_there .or. this%point == point
+               else if (this%body == body) then
+                  is_there = is_there .or. depends(this%point) .or. depends(this%direction)
+               end if
             end associate
          end do
-         do k = 1, size(plan%loads)
-            call see([model%loads(k)%body, -1], [plan%loads(k)%at, 0], [0, 0])
-         end do
-         do k = 1, size(plan%wheels)
-            associate (this => plan%wheels(k), of => model%wheels(k)%body)
-               call see([of, of], [this%centre, this%contact], [this%spin, 0])
-               call see([of, of], this%steer_axis, [0, 0])
-            end associate
-         end do
-         do k = 1, size(plan%masses)
-            call see([plan%masses(k)%body, -1], [plan%masses(k)%at, 0], [0, 0])
-         end do
-         if (body > 0) is_there = is_there .or. plan%bodies(body)%centre == point
       end associate
 
    contains
-
-      !> Looks at the two ends of a part, each on its body.
-      subroutine see(bodies, ends, directions)
-         integer, intent(in) :: bodies(2), ends(2), directions(2)
-         integer :: side
-
-         do side = 1, 2
-            if (bodies(side) == body) is_there = is_there .or. depends(ends(side)) .or. depends(directions(side))
-         end do
-      end subroutine see
 
       !> Whether a vector is the point, or follows from it.
       pure recursive logical function depends(vector) result(follows)

@@ -1,15 +1,14 @@
-!> Sets the adjusters of a suspension (ek_adjuster): moves the arms of the parts that they carry. The parts are those as made
+!> Sets the adjusters of a suspension (ek_adjuster): moves the markers that they carry. The parts are those as made
 !> (ek_made_parts).
 !>
 !> The design position, the design values of springs and measures and the preloads stay those of the drawn axle. The rows of Φ are
 !> therefore not satisfied at design if an adjuster has a value; the solution finds the position that satisfies them.
 module ek_adjust
    use ek_kinds, only: wp
-   use ek_adjuster, only: adjuster_t, place_t, moved_point, turned_direction, rod_of_joint, seat, of_term, of_element, &
-      of_joint, of_readout, of_load, of_centre, of_contact, of_axis
-   use ek_measure, only: measure_t, global_gap
+   use ek_adjuster, only: adjuster_t, moved_point, turned_direction, rod_of_joint, seat
    use ek_made_parts, only: put_made
-   use ek_suspension, only: suspension_t
+   use ek_suspension, only: suspension_t, marker_t
+   use ek_markers, only: find_point, find_direction
    use ek_wheel_contact, only: put_at_contact
    implicit none(type, external)
    private
@@ -44,8 +43,8 @@ contains
       end do
       do k = 1, size(suspension%places)
          associate (place => suspension%places(k))
-            if (.not. abs(suspension%adjusters(place%adjuster)%value) > 0.0_wp) cycle
-            call move(suspension%adjusters(place%adjuster), place, suspension)
+            if (abs(suspension%adjusters(place%adjuster)%value) > 0.0_wp) &
+               call move(suspension%adjusters(place%adjuster), suspension%markers(place%marker), place%share, suspension)
          end associate
       end do
       do k = 1, size(suspension%loads)
@@ -54,54 +53,21 @@ contains
       end do
    end subroutine adjust
 
-   !> Moves one arm.
-   pure subroutine move(adjuster, place, suspension)
+   !> Moves the point of a marker, and turns its direction.
+   pure subroutine move(adjuster, marker, share, suspension)
       type(adjuster_t), intent(in) :: adjuster
-      type(place_t), intent(in) :: place
-      type(suspension_t), intent(inout) :: suspension
+      type(marker_t), intent(in) :: marker                  !! on the body of the adjuster
+      real(wp), intent(in) :: share
+      type(suspension_t), intent(inout), target :: suspension
+      real(wp), pointer, contiguous :: at(:), direction(:)
       real(wp) :: origin(3)
 
       origin = 0.0_wp
-      if (adjuster%body > 0) origin = suspension%bodies(adjuster%body)%origin
-      select case (place%part)
-      case (of_term)
-         call move_measure(suspension%terms(place%index)%measure)
-      case (of_element)
-         call move_measure(suspension%elements(place%index)%measure)
-      case (of_readout)
-         call move_measure(suspension%readouts(place%index)%measure)
-      case (of_joint)
-         call move_arm(suspension%joints(place%index)%arm_j)
-      case (of_load)
-         call move_arm(suspension%loads(place%index)%arm)
-      case (of_centre)
-         call move_arm(suspension%wheels(place%index)%centre)
-      case (of_contact)
-         call move_arm(suspension%wheels(place%index)%contact)
-      case (of_axis)
-         call move_arm(suspension%wheels(place%index)%steer_axis(:, place%side))
-      end select
-
-   contains
-
-      !> Moves the arm of a measure on one of its bodies, with the direction that is fixed in this body.
-      pure subroutine move_measure(measure)
-         type(measure_t), intent(inout) :: measure
-
-         if (place%side == 1) then
-            call move_arm(measure%arm_i)
-            if (measure%kind /= global_gap) measure%u = turned_direction(adjuster, measure%u)
-         else
-            call move_arm(measure%arm_j)
-            measure%v = turned_direction(adjuster, measure%v)
-         end if
-      end subroutine move_measure
-
-      pure subroutine move_arm(arm)
-         real(wp), intent(inout) :: arm(3)
-         arm = moved_point(adjuster, origin + arm, place%share) - origin
-      end subroutine move_arm
-
+      if (marker%body > 0) origin = suspension%bodies(marker%body)%origin
+      call find_point(suspension, marker, at)
+      call find_direction(suspension, marker, direction)
+      if (associated(at)) at = moved_point(adjuster, origin + at, share) - origin
+      if (associated(direction)) direction = turned_direction(adjuster, direction)
    end subroutine move
 
 end module ek_adjust

@@ -15,7 +15,6 @@ module ek_adjuster
    private
    public :: adjuster_t, adjuster_numbers_t, place_t, align_t, moved_point, turned_direction, is_reachable
    public :: rod_of_joint, of_points, seat
-   public :: of_term, of_element, of_joint, of_readout, of_load, of_centre, of_contact, of_axis
 
    ! kinds
    integer, parameter :: rod_of_joint = 1     !! the length of a distance joint
@@ -41,16 +40,10 @@ module ek_adjuster
       real(wp) :: low = 0.0_wp, high = 0.0_wp !! range of the value [m]
    end type adjuster_t
 
-   ! what an adjuster moves: an arm of a term of Φ, of an element, …
-   integer, parameter :: of_term = 1, of_element = 2, of_joint = 3, of_readout = 4, of_load = 5, of_centre = 6, of_contact = 7, &
-      of_axis = 8
-
-   !> An arm that an adjuster moves.
+   !> A marker that an adjuster moves.
    type :: place_t
       integer :: adjuster = 0
-      integer :: part = 0                     !! what has the arm
-      integer :: index = 0                    !! index of the term, element, joint, readout, load or wheel
-      integer :: side = 1                     !! 1: arm on body i, 2: on body j; of_axis: first or second point
+      integer :: marker = 0                   !! index of the marker of the suspension
       real(wp) :: share = 1.0_wp              !! share of the value; a rod with two threads moves both ends by a half
    end type place_t
 

@@ -184,28 +184,37 @@ contains
    end subroutine add_vector
 
    !> Marks the elastic elements that have a parameter as a number of their own: a rate, a preload, a length, a point of a curve.
-   !> is_alone is .true. if the parameter changes nothing else in a case.
+   !> is_alone is .true. if the parameter changes nothing else in a case. A parameter is of one record of the deck: of an element or
+   !> a curve, of a case, or of another part.
    pure subroutine mark_own_elements(self, number, case, is_own, is_alone)
       type(blueprint_t), intent(in) :: self
       integer, intent(in) :: number              !! index of the parameter
       integer, intent(in) :: case                !! index of the case in the deck; 0: a standard test
       logical, intent(inout) :: is_own(:)        !! of each element
       logical, intent(out) :: is_alone
+      logical :: has(size(is_own))
       integer :: k, c
 
+      has = .false.
       do k = 1, size(self%elements)
-         if (any(self%elements(k)%numbers == number) .or. is_on_curve(self%elements(k)%curve)) is_own(k) = .true.
+         has(k) = any(self%elements(k)%numbers == number) .or. is_on_curve(self%elements(k)%curve)
       end do
       do k = 1, size(self%bushings)
-         associate (this => self%bushings(k), of_bushing => is_own(size(self%elements) + k))
-            if (is_of_triple(this%kt) .or. is_of_triple(this%kr) .or. is_of_triple(this%preload_force) .or. &
-               is_of_triple(this%preload_moment)) of_bushing = .true.
+         associate (this => self%bushings(k), of_bushing => has(size(self%elements) + k))
+            of_bushing = is_of_triple(this%kt) .or. is_of_triple(this%kr) .or. is_of_triple(this%preload_force) .or. &
+               is_of_triple(this%preload_moment)
             do c = 1, size(this%curves)
                if (is_on_curve(this%curves(c))) of_bushing = .true.
             end do
          end associate
       end do
-      is_alone = .not. is_used_elsewhere()
+      is_own = is_own .or. has
+      is_alone = any(has)
+      do k = 1, size(self%cases)
+         associate (this => self%cases(k))
+            if (k /= case .and. any([this%from, this%to, this%offset, this%steer_from, this%steer_to] == number)) is_alone = .true.
+         end associate
+      end do
 
    contains
 
@@ -225,41 +234,6 @@ contains
                (number >= this%y .and. number < this%y + this%points)
          end associate
       end function is_on_curve
-
-      !> Whether the case, or a part that is not an elastic element, has the parameter.
-      pure logical function is_used_elsewhere()
-         integer :: j
-
-         is_used_elsewhere = any(self%vectors%kind /= fixed .and. number >= self%vectors%first .and. &
-            number <= self%vectors%first + 2 .and. self%vectors%first > 0) .or. any(self%bodies%mass == number) .or. &
-            any(self%masses%kg == number) .or. any(self%joints%stiffness == number) .or. self%gravity == number .or. &
-            any(self%start == number) .or. any(self%axle == number) .or. any(self%steering == number) .or. &
-            any(self%adjusters%value == number) .or. any(self%aligns%toe == number) .or. any(self%aligns%camber == number)
-         do j = 1, size(self%parts)
-            is_used_elsewhere = is_used_elsewhere .or. is_of_triple(self%parts(j)%by)
-         end do
-         do j = 1, size(self%joints)
-            if (.not. allocated(self%joints(j)%ratios)) cycle
-            is_used_elsewhere = is_used_elsewhere .or. any(self%joints(j)%ratios == number)
-         end do
-         do j = 1, size(self%wheels)
-            associate (w => self%wheels(j))
-               is_used_elsewhere = is_used_elsewhere .or. &
-                  any([w%toe, w%camber, w%radius, w%crown_radius, w%tyre_rate, w%tyre_width, w%sprung_mass] == number)
-            end associate
-         end do
-         do j = 1, size(self%loads)
-            is_used_elsewhere = is_used_elsewhere .or. is_of_triple(self%loads(j)%force) .or. is_of_triple(self%loads(j)%moment)
-         end do
-         if (case == 0) return
-         is_used_elsewhere = is_used_elsewhere .or. any(self%manoeuvres%vertical == number) .or. &
-            any(self%manoeuvres%longitudinal == number) .or. any(self%manoeuvres%lateral == number) .or. &
-            any(self%manoeuvres%downforce == number) .or. any(self%manoeuvres%steer == number) .or. &
-            any(self%manoeuvres%wheels > 0 .and. (self%manoeuvres%wheels == number .or. self%manoeuvres%wheels + 1 == number))
-         associate (c => self%cases(case))
-            is_used_elsewhere = is_used_elsewhere .or. any([c%from, c%to, c%offset, c%steer_from, c%steer_to] == number)
-         end associate
-      end function is_used_elsewhere
 
    end subroutine mark_own_elements
 

@@ -3,10 +3,11 @@ module ek_completion
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
    use ek_relative_rotation, only: pose_t
-   use ek_measure, only: measure_t, measure_value, is_of_angle, distance
-   use ek_element, only: bushing_element, set_design_value
+   use ek_measure, only: measure_t, measure_value, distance
+   use ek_element, only: element_t, bushing_element, set_design_value
    use ek_elastic, only: set_bushing_axes
    use ek_suspension, only: suspension_t
+   use ek_markers, only: find_point
    use ek_wheel_contact, only: put_at_contact
    implicit none(type, external)
    private
@@ -17,36 +18,23 @@ contains
    !> Sets the reference points, converts design points to arms, and computes design values: the targets of the rows, and the design
    !> values of readouts and elements. Cannot fail and allocates nothing.
    pure subroutine settle_design(self)
-      type(suspension_t), intent(inout) :: self
+      type(suspension_t), intent(inout), target :: self
+      real(wp), pointer, contiguous :: at(:)
       integer :: k, t
 
       if (are_checked .and. size(self%rows) > 0) call require(sum(self%rows%terms) == size(self%terms) .and. &
          all(self%rows%first + self%rows%terms - 1 <= size(self%terms)), 'settle_design: rows and terms do not belong together')
       call settle_origins(self)
-      do k = 1, size(self%terms)
-         call subtract_origins(self, self%terms(k)%measure)
-      end do
-      do k = 1, size(self%readouts)
-         call subtract_origins(self, self%readouts(k)%measure)
-      end do
-      do k = 1, size(self%elements)
-         call settle_element(k, self)
-      end do
-      do k = 1, size(self%joints)
-         self%joints(k)%arm_j = self%joints(k)%arm_j - origin_of(self, self%joints(k)%body_j)
-      end do
-      do k = 1, size(self%bodies)
-         self%bodies(k)%centre = self%bodies(k)%centre - self%bodies(k)%origin
-      end do
-      do k = 1, size(self%loads)
-         self%loads(k)%arm = self%loads(k)%arm - origin_of(self, self%loads(k)%body)
-      end do
-      do k = 1, size(self%wheels)        ! then their loads
-         associate (w => self%wheels(k))
-            w%centre = w%centre - origin_of(self, w%body)
-            w%contact = w%contact - origin_of(self, w%body)
-            w%steer_axis = w%steer_axis - spread(origin_of(self, w%body), 2, 2)
+      do k = 1, size(self%elements)                  ! from design points
+         associate (element => self%elements(k), measure => self%elements(k)%measure)
+            if (element%kind == bushing_element) element%bushing%gap0 = measure%arm_j - measure%arm_i
+            if (measure%kind == distance) element%design_length = norm2(measure%arm_j - measure%arm_i)
          end associate
+      end do
+      do k = 1, size(self%markers)
+         if (self%markers(k)%body == 0) cycle        ! at the origin
+         call find_point(self, self%markers(k), at)
+         if (associated(at)) at(1:3) = at(1:3) - self%bodies(self%markers(k)%body)%origin
       end do
       do k = 1, size(self%loads)
          t = self%loads(k)%wheel
@@ -64,24 +52,24 @@ contains
       do k = 1, size(self%readouts)
          self%readouts(k)%design_value = design_value(self, self%readouts(k)%measure)
       end do
+      do k = 1, size(self%elements)
+         associate (element => self%elements(k), measure => self%elements(k)%measure)
+            if (element%kind /= bushing_element .and. measure%kind /= distance) &
+               element%design_length = design_value(self, measure)
+            call settle_element(element)
+         end associate
+      end do
    end subroutine settle_design
 
-   !> Converts the design points of an element to arms, and computes its values at design. The reference points of the bodies are
-   !> settled.
-   pure subroutine settle_element(k, self)
-      integer, intent(in) :: k
-      type(suspension_t), intent(inout) :: self
+   !> Computes what follows from the numbers of an element and its length at design.
+   pure subroutine settle_element(element)
+      type(element_t), intent(inout) :: element
 
-      associate (element => self%elements(k), measure => self%elements(k)%measure)
-         if (element%kind == bushing_element) element%bushing%gap0 = measure%arm_j - measure%arm_i
-         if (measure%kind == distance) call set_design_value(element, norm2(measure%arm_j - measure%arm_i))
-         if (.not. is_of_angle(measure%kind)) call subtract_origins(self, measure)
-         if (element%kind == bushing_element) then
-            call set_bushing_axes(element%bushing)
-         else if (measure%kind /= distance) then
-            call set_design_value(element, design_value(self, measure))
-         end if
-      end associate
+      if (element%kind == bushing_element) then
+         call set_bushing_axes(element%bushing)
+      else
+         call set_design_value(element, (element%design_length))
+      end if
    end subroutine settle_element
 
    !> The value of a measure with arms at design, in the unit of the measure.
@@ -97,22 +85,22 @@ contains
 
    !> Sets the reference point of each body for which the deck gives no reference point: the mean of the attachment points.
    pure subroutine settle_origins(self)
-      type(suspension_t), intent(inout) :: self
-      integer :: k, first, last
+      type(suspension_t), intent(inout), target :: self
+      real(wp), pointer, contiguous :: at(:)
+      integer :: k
 
       do k = 1, size(self%bodies)
          self%bodies(k)%attached = 0
          if (.not. self%bodies(k)%has_origin) self%bodies(k)%origin = 0.0_wp
       end do
-      do k = 1, size(self%joints)
-         first = self%rows(self%joints(k)%first_row)%first
-         last = first
-         if (.not. self%joints(k)%is_of_measures) last = first + self%joints(k)%rows - 1
-         if (all(is_of_angle(self%terms(first:last)%measure%kind))) cycle      ! angles do not locate a body
-         call include_points(self, self%terms(first)%measure)
-      end do
-      do k = 1, size(self%elements)
-         if (.not. is_of_angle(self%elements(k)%measure%kind)) call include_points(self, self%elements(k)%measure)
+      do k = 1, size(self%markers)
+         if (.not. self%markers(k)%is_attachment .or. self%markers(k)%body == 0) cycle
+         associate (body => self%bodies(self%markers(k)%body))
+            if (body%has_origin) cycle
+            call find_point(self, self%markers(k), at)
+            body%origin = body%origin + at(1:3)
+            body%attached = body%attached + 1
+         end associate
       end do
       do k = 1, size(self%bodies)
          associate (body => self%bodies(k))
@@ -120,29 +108,6 @@ contains
          end associate
       end do
    end subroutine settle_origins
-
-   !> Adds both design points of a measure to the sums of the attachment points of its bodies, which `origin` still contains.
-   pure subroutine include_points(self, m)
-      type(suspension_t), intent(inout) :: self
-      type(measure_t), intent(in) :: m
-      integer :: end, body
-
-      do end = 1, 2
-         body = merge(m%body_i, m%body_j, end == 1)
-         if (body == 0) cycle
-         if (self%bodies(body)%has_origin) cycle
-         self%bodies(body)%origin = self%bodies(body)%origin + merge(m%arm_i, m%arm_j, end == 1)
-         self%bodies(body)%attached = self%bodies(body)%attached + 1
-      end do
-   end subroutine include_points
-
-   !> Converts the design points of a measure to arms.
-   pure subroutine subtract_origins(self, measure)
-      type(suspension_t), intent(in) :: self
-      type(measure_t), intent(inout) :: measure
-      measure%arm_i = measure%arm_i - origin_of(self, measure%body_i)
-      measure%arm_j = measure%arm_j - origin_of(self, measure%body_j)
-   end subroutine subtract_origins
 
    !> Reference point of a body at design [m]; for the chassis, the global origin.
    pure function origin_of(self, body) result(origin)

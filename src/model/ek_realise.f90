@@ -17,7 +17,8 @@ module ek_realise
    use ek_element, only: element_kinds, element_numbers, set_numbers
    use ek_adjuster, only: is_reachable
    use ek_made_parts, only: begin_made, make_part
-   use ek_suspension, only: suspension_t
+   use ek_markers, only: find_point
+   use ek_suspension, only: suspension_t, of_term
    use ek_wheel_contact, only: measure_at_contact, set_rim
    use ek_case, only: case_t
    use ek_grid, only: is_grid
@@ -111,14 +112,13 @@ contains
       do k = 1, size(plan%points)
          suspension%points(k)%at = suspension%vectors(:, plan%points(k))
       end do
+      call place_markers(suspension)
       is_kept = .false.
       if (present(keeps_origins)) is_kept = keeps_origins
       call place_bodies(plan, x, is_kept, suspension)
       call place_wheels(plan, x, suspension, is_good)
       do k = 1, size(plan%readouts)
          associate (measure => suspension%readouts(k)%measure, this => plan%readouts(k))
-            measure%arm_i = suspension%vectors(:, this%ends(1))
-            measure%arm_j = suspension%vectors(:, this%ends(2))
             measure%u = suspension%vectors(:, this%u)
             measure%v = suspension%vectors(:, this%v)
             if (suspension%readouts(k)%wheel > 0) call measure_at_contact(suspension%wheels(suspension%readouts(k)%wheel), measure)
@@ -129,6 +129,11 @@ contains
       end do
       call place_joints(plan, x, suspension, is_good)
       do k = 1, size(plan%elements)
+         associate (measure => suspension%elements(k)%measure, this => plan%elements(k))
+            measure%u = suspension%vectors(:, this%axis)
+            if (this%readout > 0) measure = suspension%readouts(this%readout)%measure
+            if (measure%kind == distance) is_good = is_good .and. norm2(measure%arm_j - measure%arm_i) > 0.0_wp
+         end associate
          call place_element(plan, x, k, suspension, is_good)
       end do
       do k = 1, size(plan%bushings)
@@ -151,6 +156,20 @@ contains
       call place_adjusters(plan, x, suspension, is_good)
       if (is_good) call settle_design(suspension)
    end subroutine realise_drawn
+
+   !> Puts all markers at their design points, without those of terms, which come from `joint_terms`. Points that follow from other
+   !> numbers (a contact point that moves, a weight) and directions are set after this.
+   subroutine place_markers(suspension)
+      type(suspension_t), intent(inout), target :: suspension
+      real(wp), pointer, contiguous :: at(:)
+      integer :: k
+
+      do k = 1, size(suspension%markers)
+         if (suspension%markers(k)%part == of_term) cycle
+         call find_point(suspension, suspension%markers(k), at)
+         if (associated(at)) at(1:3) = suspension%vectors(:, suspension%markers(k)%point)
+      end do
+   end subroutine place_markers
 
    !> Computes values, directions and points of the adjusters. ek_adjust moves the parts.
    subroutine place_adjusters(plan, x, suspension, is_good)
@@ -177,7 +196,7 @@ contains
       end do
    end subroutine place_adjusters
 
-   !> Computes reference points and masses. The centres of gravity are still design points.
+   !> Computes reference points, masses, and the centres of gravity of bodies with several masses.
    subroutine place_bodies(plan, x, keeps_origins, suspension)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)
@@ -189,7 +208,6 @@ contains
          associate (body => suspension%bodies(k), this => plan%bodies(k))
             if (this%origin > 0 .and. .not. keeps_origins) body%origin = suspension%vectors(:, this%origin)
             body%mass = number_at(x, this%mass)
-            body%centre = suspension%vectors(:, this%centre)
          end associate
       end do
       ! as weights are parallel, one mass at the common centre of gravity is equivalent: m = Σ m_k, centre = Σ m_k c_k / m
@@ -239,7 +257,6 @@ contains
             call joint_terms(joint%kind, geometry, terms, terms_of_row, rows)
             t = sum(terms_of_row(:rows))
             suspension%terms(first:first + t - 1) = terms(:t)
-            joint%arm_j = geometry%point_j
             joint%axis(:, 1) = geometry%axis_i
             joint%axis(:, 2) = geometry%axis_j
          end associate
@@ -261,10 +278,10 @@ contains
       else
          call place_bushing(plan, x, k - suspension%scalars, suspension, is_good)
       end if
-      if (is_good) call settle_element(k, suspension)
+      if (is_good) call settle_element(suspension%elements(k))
    end subroutine realise_element
 
-   !> Computes elastic element k, of one measure.
+   !> Computes the numbers of elastic element k, of one measure, without those of the measure.
    subroutine place_element(plan, x, k, suspension, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)
@@ -275,15 +292,6 @@ contains
       integer :: n
 
       associate (spring => suspension%elements(k), this => plan%elements(k))
-         if (this%readout > 0) then
-            spring%measure = suspension%readouts(this%readout)%measure
-         else
-            spring%measure%arm_i = suspension%vectors(:, this%ends(1))
-            spring%measure%arm_j = suspension%vectors(:, this%ends(2))
-            spring%measure%u = suspension%vectors(:, this%axis)
-         end if
-         if (spring%measure%kind == distance) &
-            is_good = is_good .and. norm2(spring%measure%arm_j - spring%measure%arm_i) > 0.0_wp
          do n = 1, element_numbers
             numbers(n) = number_at(x, this%numbers(n))
          end do
@@ -296,7 +304,7 @@ contains
       end associate
    end subroutine place_element
 
-   !> Computes bushing k, with design points instead of arms.
+   !> Computes the numbers of bushing k, without those of its measure.
    subroutine place_bushing(plan, x, k, suspension, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)
@@ -306,10 +314,7 @@ contains
       real(wp) :: rates(6)
       integer :: c
 
-      associate (measure => suspension%elements(suspension%scalars + k)%measure, this => plan%bushings(k), &
-         bushing => suspension%elements(suspension%scalars + k)%bushing)
-         measure%arm_i = suspension%vectors(:, this%ends(1))
-         measure%arm_j = suspension%vectors(:, this%ends(2))
+      associate (this => plan%bushings(k), bushing => suspension%elements(suspension%scalars + k)%bushing)
          call marker_axes(plan, suspension%vectors(:, this%z), suspension%vectors(:, this%x), bushing%axes, is_good)
          bushing%kt = triple_at(x, this%kt)
          bushing%kr = triple_at(x, this%kr)
@@ -359,7 +364,6 @@ contains
       used = size(plan%loads)
       do k = 1, used
          associate (load => suspension%loads(k), this => plan%loads(k))
-            load%arm = suspension%vectors(:, this%at)
             load%force = inward(plan, triple_at(x, this%force))
             load%moment = inward(plan, triple_at(x, this%moment))
          end associate
@@ -390,8 +394,6 @@ contains
 
       do k = 1, size(plan%wheels)
          associate (wheel => suspension%wheels(k), this => plan%wheels(k))
-            wheel%centre = suspension%vectors(:, this%centre)
-            wheel%contact = suspension%vectors(:, this%contact)
             wheel%radius = number_at(x, this%radius, wheel%centre(3) - wheel%contact(3))
             wheel%tyre_rate = number_at(x, this%tyre_rate)
             wheel%tyre_width = number_at(x, this%tyre_width)
@@ -403,7 +405,6 @@ contains
                is_good = is_good .and. wheel%crown >= 0.0_wp .and. wheel%crown < wheel%radius
                call set_rim(wheel)
             end if
-            wheel%steer_axis = suspension%vectors(:, this%steer_axis)
             is_good = is_good .and. wheel%side*wheel%centre(2) >= 0.0_wp .and. wheel%centre(3) > wheel%contact(3) &
                .and. wheel%side*wheel%spin(2) > 0.0_wp
             if (wheel%has_steer_axis) &

@@ -6,7 +6,7 @@
 module ek_suspension
    use ek_kinds, only: wp, units_t
    use ek_relative_rotation, only: pose_t
-   use ek_measure, only: measure_t, measure_numbers_t, rotation, axis_axis
+   use ek_measure, only: measure_t, rotation, axis_axis
    use ek_joint, only: joint_t, row_t, term_t
    use ek_element, only: element_t, copy_element
    use ek_load, only: load_t, has_potential
@@ -16,6 +16,8 @@ module ek_suspension
    implicit none(type, external)
    private
    public :: suspension_t, body_t, point_t, load_t, wheel_t, wheel_place_t, wheel_place_list_t, readout_t, axle_t, steering_t
+   public :: marker_t, of_term, of_readout, of_element, of_axes, of_joint, of_centre, of_contact, of_steer_axis, of_body, of_mass, &
+      of_load
    public :: allocate_lists, copy_numbers, copy_load, body_name, design_poses, driver_row, driver_unit, load_number, &
       has_symmetric_loads, of_adjuster
 
@@ -124,16 +126,26 @@ module ek_suspension
       character(:), allocatable :: driver !! name of the driver joint (driver_row gives the row)
    end type steering_t
 
+   ! what has a marker
+   integer, parameter :: of_term = 1, of_readout = 2, of_element = 3, of_axes = 4, of_joint = 5, of_centre = 6, of_contact = 7, &
+      of_steer_axis = 8, of_body = 9, of_mass = 10, of_load = 11
+
+   !> A point that a part has on a body, with a direction that is fixed in this body (ek_markers).
+   type :: marker_t
+      integer :: part = 0                 !! what has it: of_term, …
+      integer :: index = 0                !! index of the term, readout, element, joint, wheel, body, mass or load
+      integer :: side = 1                 !! of measure and joint: 1 on body i, 2 on body j; of_axes: column; of_steer_axis: point
+      integer :: body = 0                 !! 0: the chassis
+      integer :: point = 0, direction = 0 !! indices of the vectors of the blueprint that give them; 0: none
+      logical :: is_attachment = .false.  !! one of the points whose mean is the reference point of a body without `origin`
+      logical :: only_turns = .false.     !! of an angle: only its direction has an effect
+   end type marker_t
+
    !> The numbers of all parts if some are made with deviations (&part): what ek_adjust puts in place of the drawn ones.
    type :: made_parts_t
       logical :: has_deviations = .false.      !! the other components are in use
-      type(measure_numbers_t), allocatable :: terms(:), readouts(:), elements(:)
-      real(wp), allocatable :: markers(:, :, :)                !! axes of the bushings, the elements after `scalars`
-      type(wheel_place_t), allocatable :: wheels(:)
+      real(wp), allocatable :: at(:, :), directions(:, :)      !! of the markers
       real(wp), allocatable :: longer(:)                       !! of the rows: change of the length of a rod [m]
-      real(wp), allocatable :: centres(:, :)                   !! of the bodies
-      real(wp), allocatable :: loads(:, :), joints(:, :)       !! arms
-      real(wp), allocatable :: axes(:, :, :)                   !! of the joints
    end type made_parts_t
 
    !> The numbers of a suspension that belong to no part.
@@ -169,8 +181,9 @@ module ek_suspension
       integer :: bushed_wheels = 0             !! number of wheels that only the stiffness of bushings about their axes carries
       type(readout_t), allocatable :: readouts(:)
       type(tilt_t), allocatable :: tilts(:)    !! rated tilts of joints and bushings
+      type(marker_t), allocatable :: markers(:)   !! points of the parts on bodies, without those of a rig
       type(adjuster_t), allocatable :: adjusters(:)
-      type(place_t), allocatable :: places(:)  !! all arms that adjusters move
+      type(place_t), allocatable :: places(:)  !! all markers that adjusters move
       type(align_t), allocatable :: aligns(:)  !! static angles that adjusters give
       type(made_parts_t) :: made               !! the parts as made, see ek_made_parts
       logical :: has_set_adjusters = .false.   !! the arms are those of the parts as made and of the set adjusters (ek_adjust), not
@@ -190,7 +203,7 @@ contains
    subroutine allocate_lists(self)
       type(suspension_t), intent(inout) :: self
       allocate (self%bodies(0), self%points(0), self%joints(0), self%rows(0), self%terms(0), self%elements(0), self%loads(0), &
-         self%wheels(0), self%readouts(0), self%tilts(0), self%adjusters(0), self%places(0), self%aligns(0))
+         self%wheels(0), self%readouts(0), self%tilts(0), self%markers(0), self%adjusters(0), self%places(0), self%aligns(0))
       self%balance = 'none'
       self%start = ''
       self%state = ''

@@ -8,6 +8,8 @@ module ek_parts
    use ek_element, only: element_t, set_kind, set_design_value, axial_spring, damper, stop_spring, torsion_spring, measure_spring
    use ek_suspension, only: suspension_t, body_t, load_t, wheel_t, readout_t, allocate_lists
    use ek_assembly, only: append_joint
+   use ek_blueprint, only: blueprint_t, new_blueprint
+   use ek_markers, only: list_markers
    use ek_completion, only: settle_design
    implicit none(type, external)
    private
@@ -20,7 +22,16 @@ contains
    !> Sets reference points, arms and design values; after the last add.
    subroutine complete(self)
       type(suspension_t), intent(inout) :: self
+      type(blueprint_t) :: plan
+
       call prepare(self)
+      call new_blueprint(plan)
+      plan%prototype = self
+      deallocate (plan%joints, plan%readouts, plan%elements, plan%bushings, plan%wheels, plan%bodies)
+      allocate (plan%joints(size(self%joints)), plan%readouts(size(self%readouts)), plan%elements(self%scalars), &
+         plan%bushings(size(self%elements) - self%scalars), plan%wheels(size(self%wheels)), plan%bodies(size(self%bodies)))
+      call list_markers(plan)
+      call move_alloc(plan%prototype%markers, self%markers)
       call settle_design(self)
    end subroutine complete
 
