@@ -223,9 +223,10 @@ contains
       integer :: n
 
       n = search%points
+      place = search%ends(1)
       if (trial <= smooth) then
          place = polynomial(search%x(:n), search%s(:n), 0.0_wp)
-      else
+      else if (abs(search%x(n) - search%x(n - 1)) > 0.0_wp) then
          place = search%s(n) - search%x(n)*(search%s(n) - search%s(n - 1))/(search%x(n) - search%x(n - 1))
       end if
       if (place > minval(search%ends) .and. place < maxval(search%ends)) return

@@ -220,7 +220,7 @@ contains
 
    end subroutine find_missing
 
-   !> Notes a test that has different numbers of states in two results. Slopes over a window then use different states.
+   !> Notes a test that has different numbers of states in two results.
    subroutine compare_states(one, other, t, missing)
       type(results_t), intent(in) :: one, other
       integer, intent(in) :: t                         !! index of the test in `one`
@@ -230,7 +230,7 @@ contains
       states = [size(one%tests(t)%table%values, 2), &
          size(other%tests(test_number(other, one%tests(t)%name))%table%values, 2)]
       if (states(1) /= states(2)) call missing%add('test '//quoted(one%tests(t)%name)//' has '//str(states(1))//' states in '// &
-         one%label//' and '//str(states(2))//' in '//other%label//': fitted slopes use different states')
+         one%label//' and '//str(states(2))//' in '//other%label//': curves are compared where both have a state')
    end subroutine compare_states
 
    !> The columns of `one` that the same test of `other` lacks. A column missing in several tests is listed once.

@@ -7,6 +7,7 @@ module ek_compare_text
    use ek_buffer, only: buffer_t
    use ek_file, only: join_path
    use ek_change, only: change_of, verdict_of, letter_of
+   use ek_compare_charts, only: between_states
    use ek_comparison, only: comparison_t, descending, difference, percent
    use ek_deck_difference, only: deck_difference_t, few_changes, difference_size, given, step_text
    use ek_compare_targets, only: target_lines
@@ -80,6 +81,7 @@ contains
             if (curve%curve /= '') call out%add(', '//curve%curve)
             call out%add(': '//str(curve%largest, 4)//' at '//str(curve%at, 4)//' (test '//curve%test)
             if (size(this%results) > 2) call out%add(', '//letter_of(curve%result)//' less A')
+            if (curve%compared == between_states) call out%add(', ≈ between states')
             call out%line('), '//curve%label(:index(curve%label//'  ', '  ') - 1))
          end associate
       end do

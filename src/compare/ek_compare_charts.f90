@@ -3,6 +3,7 @@
 module ek_compare_charts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
+   use ek_window, only: polynomial
    use ek_test_result, only: design_row
    use ek_chart, only: chart_t, trace_t, add_trace, append_chart, cut_of, both_sides
    use ek_test_charts, only: test_charts
@@ -10,9 +11,11 @@ module ek_compare_charts
    use ek_change, only: change_of, verdict_of, has_changed, letter_of
    implicit none(type, external)
    private
-   public :: chart_change_t, curve_difference_t, compare_charts
+   public :: chart_change_t, curve_difference_t, compare_charts, at_states, at_common, between_states
 
    real(wp), parameter :: invisible = 1.0e-5_wp     !! largest difference of curves drawn as one, as a share of the scale
+
+   real(wp), parameter :: same_abscissa = 1.0e-7_wp   !! difference of abscissae that are the same, as a share of the largest one
 
    !> The largest difference of a curve, or of all curves of a chart, from the curves of the first result.
    type :: chart_change_t
@@ -21,7 +24,11 @@ module ek_compare_charts
       real(wp) :: at = 0.0_wp                 !! abscissa of the largest difference
       logical :: is_changed = .false.         !! the change is larger than the threshold
       logical :: is_known = .false.           !! some states can be compared
+      character(14) :: compared = ''          !! where the curves were compared: at_states, at_common or between_states
    end type chart_change_t
+
+   character(14), parameter :: at_states = 'states', at_common = 'common states', between_states = 'between states'
+   integer, parameter :: min_common = 3     !! least states of two results at the same abscissae for a comparison there alone
 
    !> The difference of a curve of one result from the curve of the first result. A curve that one of the two lacks has the
    !> difference NaN.
@@ -30,6 +37,7 @@ module ek_compare_charts
       integer :: result = 2
       real(wp) :: change = 0.0_wp, largest = 0.0_wp, at = 0.0_wp
       character(12) :: verdict = ''
+      character(14) :: compared = ''          !! as of the change
    end type curve_difference_t
 
    type :: chart_list_t
@@ -138,7 +146,7 @@ contains
       real(wp) :: nothing
 
       nothing = ieee_value(1.0_wp, ieee_quiet_nan)
-      missing_change = chart_change_t(nothing, nothing, nothing, .false., .false.)
+      missing_change = chart_change_t(nothing, nothing, nothing)
    end function missing_change
 
    subroutine add_curve(chart, test, title, r, change, verdict, curves)
@@ -159,6 +167,7 @@ contains
       curve%largest = change%largest
       curve%at = change%at
       curve%verdict = verdict
+      curve%compared = change%compared
       curves = [curves, curve]
    end subroutine add_curve
 
@@ -330,20 +339,22 @@ contains
       if (.not. are_near) return
       are_near = all(ieee_is_finite(a) .and. ieee_is_finite(b))
       if (.not. are_near) return
-      near = 1.0e-7_wp*maxval(abs(a))
+      near = same_abscissa*maxval(abs(a))
       are_near = all(abs(a - b) <= near)
    end function are_near
 
-   !> The largest difference of curve b from curve a over their common range. If both have the same abscissa, they are
-   !> compared state by state, otherwise at the states of b, at which a is interpolated. Independent states (has_points) are
-   !> compared only if both have the same abscissa. The scale is the largest magnitude of a, or the least span of the chart if
-   !> that is larger.
+   !> The largest difference of curve b from curve a over their common range. Both are compared at their states: state by state if
+   !> they have the same abscissae, otherwise at the abscissae where both have a state. A curve between the states of a would differ
+   !> from the states of b by its own error. Only if there are fewer than min_common such abscissae, a is read at the states of b
+   !> from a curve through six of its states (between_states). Independent states (has_points) are compared only if both have the
+   !> same abscissae. The scale is the largest magnitude of a, or the least span of the chart if that is larger.
    pure type(chart_change_t) function distance(a, b, chart) result(change)
       type(trace_t), intent(in) :: a, b
       type(chart_t), intent(in) :: chart           !! chart of curve a
       real(wp) :: cut, scale, y, one, most, beyond
       character(:), allocatable :: unit
       integer :: k
+      integer :: state(size(b%x))              ! of curve a, at the abscissa of each state of b; 0: none
       logical :: is_paired
 
       unit = unit_in(chart%y_label)
@@ -356,12 +367,20 @@ contains
       scale = max(chart%noise, min(cut, maxval(abs(a%y), mask=ieee_is_finite(a%y))))
       is_paired = are_near(a%x, b%x)
       if (chart%has_points .and. .not. is_paired) return     ! states without an order have nothing between them
+      state = [(k, k=1, size(state))]
+      change%compared = at_states
+      if (.not. is_paired) then
+         state = [(state_at(a, b%x(k)), k=1, size(state))]
+         change%compared = merge(at_common, between_states, count(state > 0) >= min_common)
+      end if
       do k = 1, size(b%y)
          if (.not. (ieee_is_finite(b%y(k)) .and. ieee_is_finite(b%x(k)))) cycle
-         if (is_paired) then
-            y = a%y(k)
-         else
+         if (state(k) > 0) then
+            y = a%y(state(k))
+         else if (change%compared == between_states) then
             y = value_at(a, b%x(k))
+         else
+            cycle
          end if
          if (.not. ieee_is_finite(y)) cycle
          ! beyond the cut, towards a pole, a difference counts only by its part within the cut; it is given in full
@@ -376,6 +395,7 @@ contains
          change%change = change_of(scale, scale + one, scale, unit)
          beyond = max(abs(y), scale)
       end do
+      if (.not. change%is_known) change%compared = ''
       ! every difference is beyond the cut
       if (change%is_known .and. .not. most > 0.0_wp) change%change = &
          change_of(beyond, beyond + change%largest, beyond, unit)
@@ -392,22 +412,65 @@ contains
       unit = trim(adjustl(unit))
    end function unit_in
 
-   !> The value of a curve at x, interpolated between two adjacent states; NaN if no two adjacent states with values enclose
-   !> x.
+   !> Index of the state of a curve at an abscissa; 0 if there is none, or if there are several.
+   pure integer function state_at(curve, x) result(state)
+      type(trace_t), intent(in) :: curve
+      real(wp), intent(in) :: x
+      real(wp) :: near
+      integer :: k
+
+      state = 0
+      if (.not. (ieee_is_finite(x) .and. any(ieee_is_finite(curve%x)))) return
+      near = same_abscissa*maxval(abs(curve%x), mask=ieee_is_finite(curve%x))
+      do k = 1, size(curve%x)
+         if (.not. (ieee_is_finite(curve%x(k)) .and. ieee_is_finite(curve%y(k)))) cycle
+         if (abs(curve%x(k) - x) > near) cycle
+         if (state > 0) then
+            state = 0
+            return
+         end if
+         state = k
+      end do
+   end function state_at
+
+   !> The value of a curve at x, on the polynomial through three states on either side, or as many as there are with values and in
+   !> order; NaN if no two adjacent states with values enclose x.
    pure real(wp) function value_at(curve, x)
       type(trace_t), intent(in) :: curve
       real(wp), intent(in) :: x
-      integer :: k
+      integer :: k, first, last
 
       value_at = ieee_value(1.0_wp, ieee_quiet_nan)
       do k = 2, size(curve%x)
-         if (.not. all(ieee_is_finite([curve%x(k - 1:k), curve%y(k - 1:k)]))) cycle
+         if (.not. goes_on(k - 1, 1.0_wp) .and. .not. goes_on(k - 1, -1.0_wp)) cycle
          associate (p => curve%x(k - 1), q => curve%x(k))
-            if (x < min(p, q) .or. x > max(p, q) .or. .not. abs(q - p) > 0.0_wp) cycle
-            value_at = curve%y(k - 1) + (curve%y(k) - curve%y(k - 1))*((x - p)/(q - p))
+            if (x < min(p, q) .or. x > max(p, q)) cycle
+            first = k - 1
+            last = k
+            do while (first > max(1, k - 3))
+               if (.not. goes_on(first - 1, q - p)) exit
+               first = first - 1
+            end do
+            do while (last < min(size(curve%x), k + 2))
+               if (.not. goes_on(last, q - p)) exit
+               last = last + 1
+            end do
          end associate
+         value_at = polynomial(curve%x(first:last), curve%y(first:last), x)
          return
       end do
+
+   contains
+
+      !> Whether the curve has values at a state and the next one, and its abscissa changes in a direction.
+      pure logical function goes_on(state, way)
+         integer, intent(in) :: state
+         real(wp), intent(in) :: way
+
+         goes_on = all(ieee_is_finite([curve%x(state:state + 1), curve%y(state:state + 1)]))
+         if (goes_on) goes_on = (curve%x(state + 1) - curve%x(state))*way > 0.0_wp
+      end function goes_on
+
    end function value_at
 
 end module ek_compare_charts

@@ -69,14 +69,16 @@ contains
    end function differences_csv
 
    !> The table of curves as CSV, one row per curve and per result compared with the first. A row gives the largest
-   !> difference, in the unit of the label, and the value of the test's abscissa at this difference.
+   !> difference, in the unit of the label, and the value of the test's abscissa at this difference. `compared` is states, common
+   !> states (the abscissae where both have a state) or between states (A on a curve through its states); empty if nothing is
+   !> compared.
    function curves_csv(this) result(text)
       type(comparison_t), intent(in) :: this
       character(:), allocatable :: text
       type(frame_t) :: frame
       integer :: k
 
-      frame = new_frame('test,quantity,title,curve,label,a_file,b_file,largest_difference,at,change,verdict')
+      frame = new_frame('test,quantity,title,curve,label,a_file,b_file,largest_difference,at,change,verdict,compared')
       do k = 1, size(this%curves)
          associate (curve => this%curves(k))
             call frame%put(curve%test)
@@ -90,6 +92,7 @@ contains
             call frame%put(curve%at)
             call frame%put(100*curve%change)
             call frame%put(trim(curve%verdict))
+            call frame%put(trim(curve%compared))
          end associate
       end do
       text = frame%csv()

@@ -4,7 +4,7 @@ module ek_missing_number
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str
-   use ek_table, only: table_t, column_index, name_length, row_count
+   use ek_table, only: table_t, column_index, column_range, name_length, row_count, stop_row
    use ek_test_result, only: design_row, state_range
    use ek_table_reading, only: row_at
    use ek_gradient, only: fit_slope, slope_note, lacks_rate, rate_reason
@@ -65,6 +65,10 @@ contains
 
       if (over /= 'factor') then
          text = over//' does not reach '//str(at, 4)//range_of(table)
+         if (has_passed(table, over, at)) text = 'no state was found where '//over//' is '//str(at, 4)
+         if (table%is_of_rows) text = 'no row of the case has '//over//' = '//str(at, 4)
+         if (stop_row(table, column_index(table, over), at) > 0) text = column//' is not a number (nan) where '//over//' is '// &
+            str(at, 4)
       else if (lacks_rate(table, column)) then
          text = rate_reason(table)
       else if (row_at(table, at) > 0) then
@@ -75,6 +79,18 @@ contains
          text = no_design(table)
       end if
    end function missing_value
+
+   !> Whether a column has values on both sides of a value.
+   pure logical function has_passed(table, column, at)
+      type(table_t), intent(in) :: table
+      character(*), intent(in) :: column
+      real(wp), intent(in) :: at
+      real(wp) :: range(2)
+
+      range = column_range(table, column)
+      has_passed = all(ieee_is_finite(range))
+      if (has_passed) has_passed = range(1) <= at .and. at <= range(2)
+   end function has_passed
 
    !> Why a table has no design state: it did not converge, or it lies outside the states.
    function no_design(table) result(text)

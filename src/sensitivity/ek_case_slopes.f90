@@ -1,7 +1,7 @@
 !> A case with the derivatives of its columns at every state. From the table at a design, the table of a neighbouring design follows
 !> to first order, without a solution.
 module ek_case_slopes
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_error, only: error_t
    use ek_table, only: table_t, new_table, name_length, column_index
@@ -102,6 +102,7 @@ contains
    !> Equation (E.11) of docs/theory/derivatives.md.
    pure subroutine move_stops(this)
       type(case_slopes_t), intent(inout) :: this
+      logical :: has_motion
       integer :: k, s, x, p
 
       if (.not. allocated(this%table%stops)) return
@@ -110,9 +111,15 @@ contains
             s = findloc(this%row, this%table%stops(k)%row, dim=1)
             x = findloc(derivatives%columns == this%table%stops(k)%column, .true., dim=1)
             if (s == 0 .or. x == 0) cycle
+            has_motion = ieee_is_finite(derivatives%along(x, s))
+            if (has_motion) has_motion = abs(derivatives%along(x, s)) > 0.0_wp      ! it has no extreme at the stop
             do p = 1, size(derivatives%directions)
-               derivatives%slopes(:, p, s) = derivatives%slopes(:, p, s) - &
-                  derivatives%along(:, s)*(derivatives%slopes(x, p, s)/derivatives%along(x, s))
+               if (has_motion) then
+                  derivatives%slopes(:, p, s) = derivatives%slopes(:, p, s) - &
+                     derivatives%along(:, s)*(derivatives%slopes(x, p, s)/derivatives%along(x, s))
+               else
+                  derivatives%slopes(:, p, s) = ieee_value(1.0_wp, ieee_quiet_nan)
+               end if
             end do
          end do
       end associate

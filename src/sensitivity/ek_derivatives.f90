@@ -207,7 +207,9 @@ contains
       real(wp) :: motion(result%kkt%n, 1), step(result%kkt%nq), y(size(values), 4), errors(size(values)), h
       integer :: k
 
+      along = ieee_value(1.0_wp, ieee_quiet_nan)
       h = share*abs(result%case%to - result%case%from)
+      if (.not. h > 0.0_wp) return
       schedule = new_schedule(result%suspension, result%case)
       associate (place => result%path%value(point%number))
          call inputs_at(schedule, place, here)
@@ -219,7 +221,6 @@ contains
          inputs_rate(there(2), there(3), (stencils(1)%at(3) - stencils(1)%at(2))*h), result%kkt)
       motion(:, 1) = result%kkt%rhs(:result%kkt%n)
       call solve_motions(result%suspension, point%state, here, result%kkt, 1, motion, point%is_regular)
-      along = ieee_value(1.0_wp, ieee_quiet_nan)
       if (.not. point%is_regular) return
       moved = design_state(result%suspension)
       do k = 1, 4

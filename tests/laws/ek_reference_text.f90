@@ -163,7 +163,7 @@ contains
    function without_empty_places(csv) result(plain)
       character(*), intent(in) :: csv
       character(:), allocatable :: plain, line
-      character(*), parameter :: ending = ',0,same'
+      character(*), parameter :: ending = ',0,same,states'
       integer :: at, last, comma
 
       plain = ''
