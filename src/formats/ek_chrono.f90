@@ -21,14 +21,24 @@ module ek_chrono
 
 contains
 
-   !> Whether a text is JSON.
+   !> Whether a text is JSON, perhaps below comments.
    pure logical function is_json(text)
       character(*), intent(in) :: text
-      integer :: at
+      integer :: at, step
 
-      at = verify(text, ' '//achar(9)//achar(10)//achar(13))
       is_json = .false.
-      if (at > 0) is_json = text(at:at) == '{'
+      at = 1
+      do while (at <= len(text))
+         step = verify(text(at:), ' '//achar(9)//achar(10)//achar(13))
+         if (step == 0) return
+         at = at + step - 1
+         is_json = text(at:at) == '{'
+         if (is_json .or. at == len(text)) return
+         if (text(at:at + 1) /= '//') return
+         step = index(text(at:), achar(10))
+         if (step == 0) return
+         at = at + step
+      end do
    end function is_json
 
    !> Whether a text in JSON may be a file of Chrono: it has the name "Type" or "Template".
@@ -84,6 +94,11 @@ contains
       k = find_leaf(tree, 'Type')
       if (k == 0) then
          call flaws%add(0, 'expected the JSON of a Chrono suspension ("Type": "Suspension"), found JSON without "Type"')
+         return
+      else if (find_leaf(tree, 'Vehicle/Input File') > 0) then
+         k = find_leaf(tree, 'Vehicle/Input File')
+         call flaws%add(tree%leaves(k)%line, 'expected a suspension, found a list of parts; import the file of its vehicle, '// &
+            shown(tree%leaves(k)%text))
          return
       else if (tree%leaves(k)%text /= 'Suspension') then
          call flaws%add(tree%leaves(k)%line, 'expected "Type": "Suspension", found '//shown(tree%leaves(k)%text)// &

@@ -71,6 +71,8 @@ module ek_chrono_template
       'write the leaves as in docs/joints.md, leaf spring'), &
       refusal_t('RigidPanhardAxle', 'its anti-roll bar slides on the axle', by_hand), &
       refusal_t('ToeBarRigidPanhardAxle', 'its anti-roll bar slides on the axle', by_hand), &
+      refusal_t('SingleWishbone', 'its carrier is hinged to the only arm', by_hand), &
+      refusal_t('HendricksonPRIMAXX', 'its axle has a transverse beam, torque rods and air springs of its own', by_hand), &
       refusal_t('GenericWheeledSuspension', 'its bodies and joints are those of its author', by_hand), &
       refusal_t('RigidSuspension', 'its wheels are fixed to the chassis', 'there is no suspension to import'), &
       refusal_t('RigidPinnedAxle', 'its axle rolls about a pin without springs', 'there is no wheel travel to import')]
