@@ -77,24 +77,6 @@ def slope(x, y, half):
     return along / sum(weight * (half * point) ** 2 for point, weight in POINTS)
 
 
-def cubic(x, y, at):
-    """The cubic curve through four points, or the line through two."""
-    return next((b for a, b in zip(x, y) if a == at), None) if at in x else polynomial(x, y, at)
-
-
-def where(x, y, factor, wanted):
-    """y where x has a value, on the cubic curve through two states on either side, nearest to design."""
-    good = [k for k in range(len(x)) if not math.isnan(x[k]) and not math.isnan(y[k])]
-    best, at = math.inf, None
-    for j, k in enumerate(good[:-1]):
-        if (x[k] - wanted) * (x[good[j + 1]] - wanted) <= 0 and abs(factor[k]) < best:
-            best, at = abs(factor[k]), j
-    if at is None:
-        return math.nan
-    near = good[at - 1:at + 3] if 0 < at < len(good) - 2 else good[at:at + 2]
-    return cubic([x[k] for k in near], [y[k] for k in near], wanted)
-
-
 def folds(table):
     """Whether a path turns back: then the branch through design is not known here."""
     factor = [float(row['factor']) for row in table.rows]
@@ -109,7 +91,7 @@ class Report:
                               check=False)
         if done.returncode not in (0, 4):
             raise SystemExit(f'{deck}: report ends with {done.returncode}: {done.stderr}')
-        self.deck, self.folder, self.tables = deck, Path(folder), {}
+        self.program, self.deck, self.folder, self.tables = program, deck, Path(folder), {}
         self.numbers = rows_of(self.folder / 'key_numbers.csv')
         self.by_name = {row['name']: row for row in self.numbers}
         page = (self.folder / 'report.html').read_text(encoding='utf-8')
@@ -124,6 +106,16 @@ class Report:
         if test not in self.tables:
             self.tables[test] = Table(self.folder / f'{test}.csv')
         return self.tables[test]
+
+    def where(self, table, side, column, value):
+        """The state at which a column has a value, as a table: the target of a case, which the program finds in another way."""
+        head = next(head for head in (f'{side}_{column}', column) if head in table.rows[0])
+        out = self.folder / 'target'
+        done = subprocess.run([self.program, 'run', self.deck, '--case', table.name, '--set', f'case.{table.name}.target={head}={value}',
+                               '--quiet', '--out', out], capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise KeyError(done.stderr)
+        return Table(next(out.glob(f'*_{table.name}_target.csv')))
 
     def same(self, what, said, found, tolerance=ROUNDING, noise=0.0):
         self.checked += 1
@@ -167,13 +159,13 @@ class Report:
             y = table.column(side, match[1])
             value = slope([x[k] for k in nodes], [y[k] for k in nodes], half) * per_factor * times
             return value, 2e-2 * abs(times * per_factor) / half if number(row['value']) == 0 else 0.0
-        if 'at this steer angle' in text:
-            column, sign = text.split()[0], 1 if side == 'left' else -1
-            return where(table.column(side, 'steer_deg'), table.column('', column), table.column('', 'factor'), 20.0 * sign), 0.0
+        if 'at the state with this steer angle' in text:
+            found = self.where(table, side, 'steer_deg', 20.0 if side == 'left' else -20.0)
+            return found.column('', text.split()[0])[0], 0.0
         if text.startswith('magnitude of the change of wheel_travel_mm'):
             gap = re.search(r'to where (\S+) is 0', text)[1]
             travel = table.column(side, 'wheel_travel_mm')
-            at = where(table.column(side, gap), travel, table.column('', 'factor'), 0.0)
+            at = self.where(table, side, gap, 0.0).column(side, 'wheel_travel_mm')[0]
             return abs(at - travel[table.design()]), 0.0
         extreme = re.match(r'(maximum|minimum) of (\w+)', text)
         if extreme:
