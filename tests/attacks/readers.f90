@@ -229,19 +229,22 @@ contains
       if (has_no_number(deck_text)) call give_up('the deck has a number that is none')
    end subroutine judge
 
-   !> Whether a deck has NaN or infinite where a number should be. Comments, which quote names of the file, are left out.
+   !> Whether a deck has NaN or infinite where a number should be. Comments and strings, which quote names and titles of the file, are
+   !> left out.
    logical function has_no_number(text)
       character(*), intent(in) :: text
       character(:), allocatable :: folded
-      integer :: at, next
+      logical :: is_comment, is_string
+      integer :: at
 
-      folded = ''
-      at = 1
-      do while (at <= len(text))
-         next = index(text(at:), new_line('a'))
-         if (next == 0) next = len(text) - at + 2
-         if (text(at:at) /= '!') folded = folded//lower(text(at:at + next - 2))//new_line('a')
-         at = at + next
+      folded = lower(text)
+      is_comment = .false.
+      is_string = .false.
+      do at = 1, len(text)
+         if (text(at:at) == new_line('a')) is_comment = .false.
+         if (text(at:at) == '!' .and. .not. is_string) is_comment = .true.
+         if (text(at:at) == "'" .and. .not. is_comment) is_string = .not. is_string
+         if (is_comment .or. is_string) folded(at:at) = '_'
       end do
       has_no_number = index(folded, '= nan') > 0 .or. index(folded, ', nan') > 0 .or. index(folded, ',nan') > 0 .or. &
          index(folded, '= inf') > 0 .or. index(folded, ', inf') > 0 .or. index(folded, '-inf') > 0 .or. index(folded, ',inf') > 0
