@@ -16,7 +16,7 @@ module ek_compare_measured
    use ek_path, only: path_t
    use ek_report_names, only: used_deck_file
    use ek_report_measured, only: read_measured, compare_all_measured
-   use ek_report, only: run_planned
+   use ek_report_test, only: run_planned
    use ek_measured_difference, only: measured_model_t, measured_text, measured_json, measured_differences
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, examine_chosen
    use ek_command_line, only: command_line_t, refuse_stream, read_windows, read_threshold

@@ -168,7 +168,6 @@ contains
       type(gradient_t), allocatable, intent(out) :: numbers(:)
       type(error_t), allocatable, intent(out) :: error     !! exit_file, with path and line
       type(text_table_t) :: table
-      logical :: is_number
       integer :: k
 
       allocate (numbers(0))
@@ -185,11 +184,8 @@ contains
             n%unit = cell_of(table, k, 'unit')
             n%window = cell_of(table, k, 'condition')
             n%column = cell_of(table, k, 'name')
-            call get_decimal(cell_of(table, k, 'value'), n%value, is_number)
-            if (is_number) cycle
-            call fail(error, exit_file, path//':'//str(table%lines(k))//': '//quoted(cell_of(table, k, 'value'))// &
-               ' is not a number')
-            return
+            call take_value(path, table, k, n%value, error)
+            if (allocated(error)) return
          end associate
       end do
    end subroutine read_numbers
@@ -307,7 +303,6 @@ contains
       type(gradient_t), allocatable, intent(out) :: numbers(:)
       type(error_t), allocatable, intent(out) :: error     !! exit_file, with path and line
       type(text_table_t) :: table
-      logical :: is_number
       integer :: k, used
 
       allocate (numbers(0))
@@ -327,15 +322,26 @@ contains
             n%unit = cell_of(table, k, 'unit')
             n%window = 'at design'
             n%column = trim(adjustl(n%side//' '//n%quantity))
-            call get_decimal(cell_of(table, k, 'value'), n%value, is_number)
-            if (is_number) cycle
-            call fail(error, exit_file, path//':'//str(table%lines(k))//': '//quoted(cell_of(table, k, 'value'))// &
-               ' is not a number')
-            return
+            call take_value(path, table, k, n%value, error)
+            if (allocated(error)) return
          end associate
       end do
       numbers = numbers(:used)
    end subroutine read_defined_numbers
+
+   !> Reads the number in the column `value` of a row.
+   subroutine take_value(path, table, k, value, error)
+      character(*), intent(in) :: path
+      type(text_table_t), intent(in) :: table
+      integer, intent(in) :: k                       !! index of the row
+      real(wp), intent(out) :: value
+      type(error_t), allocatable, intent(inout) :: error      !! exit_file: the value is not a number
+      logical :: is_number
+
+      call get_decimal(cell_of(table, k, 'value'), value, is_number)
+      if (.not. is_number) call fail(error, exit_file, path//':'//str(table%lines(k))//': '// &
+         quoted(cell_of(table, k, 'value'))//' is not a number')
+   end subroutine take_value
 
    !> Completes a table of another program or a part of a table: without a column of wheel travel, the prefixes left_ and right_ give
    !> the wheels; without the abscissa of its test, the first column is the abscissa if it rises or falls from row to row.
